@@ -18,7 +18,7 @@
 #define PASS_CLIP 0       /* 4 columns of clip_from_world */
 #define PASS_EYE 4        /* xyz: camera position, world space, or direction to it if w = 0; w: 1 perspective, 0 orthographic */
 #define PASS_CODE 4       /* shadow passes: code = d * w + PASS_CODE_ADD.x; d: depth 0..1, or distance from xyz in metres */
-#define PASS_CODE_ADD 5   /* shadow passes: x */
+#define PASS_CODE_ADD 5   /* shadow passes: x; y: code of the far end; z: depth maps of spots and points: code at infinity */
 #define PASS_SKY 5        /* rgb: radiance of the upper hemisphere, after exposure */
 #define PASS_GROUND 6     /* rgb: radiance of the lower hemisphere, after exposure */
 #define PASS_EXPOSURE 7   /* x: factor on emitted radiance; yzw: camera position, world space */

@@ -6,6 +6,10 @@
 #ifdef WITH_PERSPECTIVE
 in vec3 v_from_light;
 #endif
+#ifdef WITH_MIDDLE
+#include "lib/middle.glsl"
+uniform MAP_SAMPLER u_map_0;
+#endif
 layout(location = 0) out MAP_OUT o_code;
 
 void main() {
@@ -15,5 +19,9 @@ void main() {
 #else
     float distance = gl_FragCoord.z;
 #endif
-    o_code = map_encode(distance * u_pass[PASS_CODE].w + u_pass[PASS_CODE_ADD].x);
+    float code = distance * u_pass[PASS_CODE].w + u_pass[PASS_CODE_ADD].x;
+#ifdef WITH_MIDDLE
+    code = middle_code(code, map_code(u_map_0, gl_FragCoord.xy / vec2(textureSize(u_map_0, 0))));
+#endif
+    o_code = map_encode(code);
 }

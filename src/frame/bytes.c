@@ -22,14 +22,25 @@ static uint64_t own_bytes(const struct gn_map_need *need) {
            (mipmaps ? filtered / 3 : 0);
 }
 
+/* Of the texture of far sides: beside the pages, or the map. */
+static void set_backs_size(const struct gn_map_need *need, uint32_t size_px[2]) {
+    size_px[0] = need->paged ? need->map.tile_px : need->map.width_px;
+    size_px[1] = need->paged ? need->map.tile_px : need->map.height_px;
+}
+
 uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count) {
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct gn_map_need *need = &needs[i];
         const struct gn_filter_row *filter = &gn_filters[gn_techniques[need->technique].filter];
         const uint64_t tile_px = need->map.tile_px;
-        uint64_t pages =
-            need->paged ? tile_px * tile_px * gn_encodings[need->encoding].texel_bytes : 0;
+        const unsigned texel_bytes = gn_encodings[need->encoding].texel_bytes;
+        const uint64_t page_bytes = tile_px * tile_px * texel_bytes;
+        uint64_t pages = need->paged ? page_bytes : 0;
+        uint64_t backs = 0;
+        uint32_t backs_px[2];
+        set_backs_size(need, backs_px);
+        if (need->backs) backs = (uint64_t)backs_px[0] * backs_px[1] * texel_bytes;
         uint64_t steps = 0; /* the textures that the filter has beside the light's own one */
         uint32_t seen = 1;  /* bits of textures */
         for (uint32_t k = 0; need->moments && k < filter->count; k++) {
@@ -47,8 +58,13 @@ uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count) {
             if (other->paged && need->paged && other->encoding == need->encoding &&
                 other->map.tile_px == need->map.tile_px)
                 pages = 0;
+            uint32_t others_px[2];
+            set_backs_size(other, others_px);
+            if (other->backs && need->backs && other->encoding == need->encoding &&
+                others_px[0] == backs_px[0] && others_px[1] == backs_px[1])
+                backs = 0;
         }
-        bytes += own_bytes(need) + steps + pages;
+        bytes += own_bytes(need) + steps + pages + backs;
     }
     return bytes;
 }
@@ -64,6 +80,9 @@ uint64_t gn_plan_map_bytes(const struct gn_plan *plan) {
                                         .paged = (view->map.cascade_count > 0 && !view->empty) ||
                                                  view->raster.drawn.paged};
     }
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].target.kind == GN_TARGET_BACKS)
+            needs[plan->passes[i].target.slot].backs = true;
     return gn_map_needs_bytes(needs, plan->shadow_count);
 }
 
@@ -93,12 +112,15 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
     for (uint32_t i = 0; i < frame->view_count; i++) {
         const enum gn_light_type type =
             frame->scene->lights[gn_frame_light_of_slot(frame, i)->light].type;
-        needs[i] = (struct gn_map_need){.technique = maps[i].technique,
-                                        .encoding = maps[i].encoding,
-                                        .moments = maps[i].moments,
-                                        /* counted whether this eye needs them or not */
-                                        .paged = !gn_light_types[type].has_position &&
-                                                 !gn_techniques[maps[i].technique].on_plane};
+        needs[i] =
+            (struct gn_map_need){.technique = maps[i].technique,
+                                 .encoding = maps[i].encoding,
+                                 .moments = maps[i].moments,
+                                 /* counted whether this eye needs them or not */
+                                 .paged = !gn_light_types[type].has_position &&
+                                          !gn_techniques[maps[i].technique].on_plane,
+                                 .backs = gn_frame_has_middle(frame, maps[i].technique,
+                                                              maps[i].faces_given, maps[i].faces)};
         set_size(type, &maps[i], &needs[i]);
     }
     while (gn_map_needs_bytes(needs, frame->view_count) > most_bytes) {

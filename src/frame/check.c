@@ -134,8 +134,10 @@ static const char *check_tile(const struct gn_plan *plan, const struct gn_pass *
 }
 
 static const char *check_map(const struct gn_plan *plan, const struct gn_pass *pass) {
-    const bool pages = pass->target.kind == GN_TARGET_PAGES;
+    const bool backs = pass->target.kind == GN_TARGET_BACKS;
+    const bool pages = pass->target.kind == GN_TARGET_PAGES || backs;
     REQUIRE(pages || pass->target.kind == GN_TARGET_SHADOW);
+    REQUIRE(!backs || (pass->clear.area == GN_CLEAR_ALL && !pass->map.reads_backs));
     const bool is_mean = pass->target.encoding == GN_ENCODING_MEAN;
     REQUIRE(pass->map.point_count == 0 || is_mean);
     REQUIRE(!is_mean || pass->draw_count == 0 || pass->map.point_count > 0);
@@ -230,11 +232,17 @@ const char *gn_plan_check(const struct gn_plan *plan) {
     if (broken) return broken;
 
     /* The order: pages are cleared by the first pass to them, and copied by the pass after the
-     * last. Only the last pass to the output resolves it. */
+     * last. Far sides are read by the pass after theirs. Only the last pass to the output resolves
+     * it. */
     const struct gn_pass *passes = plan->passes;
     uint32_t last = plan->pass_count;
     for (uint32_t i = 0; i < plan->pass_count; i++) {
-        const struct gn_pass *pass = &passes[i], *before = i > 0 ? pass - 1 : NULL;
+        const struct gn_pass *pass = &passes[i];
+        const bool backs = pass->target.kind == GN_TARGET_BACKS;
+        const bool reads_backs = pass->kind == GN_PASS_MAP && pass->map.reads_backs;
+        REQUIRE(reads_backs == (i > 0 && passes[i - 1].target.kind == GN_TARGET_BACKS));
+        if (backs) continue;
+        const struct gn_pass *before = i > reads_backs ? pass - 1 - reads_backs : NULL;
         const bool to_pages = pass->target.kind == GN_TARGET_PAGES;
         const bool goes_on = before && before->target.kind == GN_TARGET_PAGES;
         if (pass->target.kind == GN_TARGET_OUTPUT) last = i;

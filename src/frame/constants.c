@@ -163,4 +163,6 @@ void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from
     constants[PASS_CODE][3] =
         view->perspective ? view->code.scale : view->code.scale * view->code.far_m;
     constants[PASS_CODE_ADD][0] = view->code.offset;
+    constants[PASS_CODE_ADD][1] = view->code.far_end;
+    constants[PASS_CODE_ADD][2] = view->lookup.depth_code[0];
 }

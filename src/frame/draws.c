@@ -5,22 +5,39 @@
 
 #include "frame/private.h"
 
-/* A closed body needs only the faces towards a light outside it, or, with `auto`, only the others
- * (second depth: Wang, Molnar 1994). Open bodies need both. */
-static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
-                                uint32_t index, const struct gn_shadow_view *view) {
+static enum gn_cast_faces faces_of(const struct gn_scene *scene, uint32_t item,
+                                   const struct gn_shadow_view *view) {
+    return view->faces_given ? view->faces : scene->items[item].cast_faces;
+}
+
+/* A closed body, the light outside it: each ray that enters leaves it again. */
+static bool has_two_sides(const struct gn_scene *scene, const struct gn_pose *pose, uint32_t index,
+                          const struct gn_shadow_view *view) {
     const struct gn_item *item = &scene->items[index];
-    const enum gn_cast_faces faces = view->faces_given ? view->faces : item->cast_faces;
-    if (faces == GN_CAST_FRONT) return GN_CULL_BACK;
-    if (faces == GN_CAST_BACK) return GN_CULL_FRONT;
-    bool solid = scene->geometries[item->geometry].closed &&
-                 scene->materials[item->material].alpha != GN_ALPHA_MASK;
     const struct gn_box *box = &pose->items[index].box_ws;
     bool outside = !view->perspective;
     for (int k = 0; k < 3; k++)
         outside |= view->light_ws[k] < box->min[k] || view->light_ws[k] > box->max[k];
-    if (!solid || !outside) return GN_CULL_NONE;
+    return outside && scene->geometries[item->geometry].closed &&
+           scene->materials[item->material].alpha != GN_ALPHA_MASK;
+}
+
+/* A closed body needs only the faces towards a light outside it, or, with `auto`, only the others
+ * (second depth: Wang, Molnar 1994). Open bodies need both. */
+static enum gn_cull caster_cull(const struct gn_scene *scene, const struct gn_pose *pose,
+                                uint32_t index, const struct gn_shadow_view *view) {
+    const enum gn_cast_faces faces = faces_of(scene, index, view);
+    if (faces == GN_CAST_FRONT) return GN_CULL_BACK;
+    if (faces == GN_CAST_BACK) return GN_CULL_FRONT;
+    if (!has_two_sides(scene, pose, index, view)) return GN_CULL_NONE;
     return faces == GN_CAST_AUTO ? GN_CULL_FRONT : GN_CULL_BACK;
+}
+
+/* Its middle: that of front and back face as the light sees them. Open bodies have none. */
+static bool casts_by_middle(const struct gn_scene *scene, const struct gn_pose *pose, uint32_t item,
+                            const struct gn_shadow_view *view) {
+    return faces_of(scene, item, view) == GN_CAST_MIDDLE &&
+           !gn_techniques[view->technique].on_plane && has_two_sides(scene, pose, item, view);
 }
 
 /* How far behind the near plane a box lies: its middle, or its far side. */
@@ -36,7 +53,9 @@ static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bo
 
 static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_selection *s, uint32_t item) {
-    if (s->casts) return s->casts[item] >> s->page & 1;
+    if (s->casts)
+        return s->casts[item] >> s->page & 1 &&
+               (!s->backs || casts_by_middle(frame->scene, pose, item, s->view));
     if (frame->plane.shown > 1 && gn_key_further_plane(frame, item, s->opts) != s->plane)
         return false;
     if (s->part && gn_key_on_plane(frame, item, s->opts) != (s->part == GN_PART_PLANE))
@@ -62,7 +81,7 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
     bool mirrored = pose->items[item].mirrored != s->mirrored;
     enum gn_cull cull =
         frame->scene->materials[what->material].double_sided ? GN_CULL_NONE : GN_CULL_BACK;
-    if (s->casts) cull = caster_cull(frame->scene, pose, item, s->view);
+    if (s->casts) cull = s->backs ? GN_CULL_FRONT : caster_cull(frame->scene, pose, item, s->view);
     if (*open) { /* an instance of the last draw? */
         const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
         *open = last->mirrored == mirrored && last->cull == cull;
@@ -70,6 +89,8 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
     if (!*open) {
         struct gn_program_key key =
             s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
+        if (s->casts && !s->backs && casts_by_middle(frame->scene, pose, item, s->view))
+            gn_key_add_middle(s->view, &key);
         if (s->group) key = gn_key_additive(frame, &key, s->group, s->opts);
         uint32_t program = gn_frame_program(frame, &key);
         GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,

@@ -26,7 +26,8 @@
                                            flat varyings */                                        \
     X(ADDITIVE, "additive") /* LIT: light alone, to be added: no ambient, emission, alpha */       \
     X(SHADOW_SPECULAR, "shadow-specular") /* shadows leave a share of highlights of their own */   \
-    X(METAL, "metal")                     /* the material may be a metal in places */
+    X(METAL, "metal")                     /* the material may be a metal in places */              \
+    X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */
 
 enum gn_feature_bit {
     GN_FEATURE_FIRST_TEXTURE = 0,    /* that slot has a texture */

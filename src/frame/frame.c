@@ -12,6 +12,8 @@ struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_c
     struct gn_frame *frame = gn_xalloc(1, sizeof *frame);
     frame->scene = scene;
     frame->caps = *caps;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        frame->has_middle |= scene->items[i].cast_faces == GN_CAST_MIDDLE;
     frame->constants = gn_xalloc(GN_CONSTANTS_COUNT * GN_PASS_SIZE, sizeof *frame->constants);
     return frame;
 }

@@ -154,3 +154,8 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
         key.features |= GN_FEATURE(PERSPECTIVE);
     return key;
 }
+
+void gn_key_add_middle(const struct gn_shadow_view *view, struct gn_program_key *key) {
+    key->features |= GN_FEATURE(MIDDLE);
+    if (view->perspective) key->features |= GN_FEATURE(PERSPECTIVE);
+}

@@ -40,6 +40,40 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind
     return pass;
 }
 
+bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique technique,
+                         bool faces_given, enum gn_cast_faces faces) {
+    return !gn_techniques[technique].on_plane &&
+           (faces_given ? faces == GN_CAST_MIDDLE : frame->has_middle);
+}
+
+/* Draws the casters of the pass that was begun last, and ends it. Those that cast by their middle
+ * read the far sides, which a pass before it draws beside the map (midpoint shadow maps: Woo, "The
+ * Shadow Depth Map Revisited", Graphics Gems III, 1992). */
+static void draw_casters(struct gn_frame *frame, const struct gn_pose *pose,
+                         struct gn_selection *casters) {
+    const struct gn_shadow_view *view = casters->view;
+    if (gn_frame_has_middle(frame, view->technique, view->faces_given, view->faces)) {
+        struct gn_pass *backs = &frame->passes.at[frame->passes.count - 1];
+        struct gn_pass map = *backs;
+        const size_t used = strlen(backs->label);
+        snprintf(backs->label + used, sizeof backs->label - used, " far");
+        backs->target.kind = GN_TARGET_BACKS;
+        backs->clear.area = GN_CLEAR_ALL;
+        backs->clear.color[0] = view->code.far_end;
+        backs->content.completes = false;
+        backs->discard_depth = backs->target.encoding != GN_ENCODING_DEPTH;
+        casters->backs = true;
+        gn_frame_draw_items(frame, pose, casters);
+        gn_frame_end_pass(frame);
+        casters->backs = false;
+        map.first_draw = frame->draws.count;
+        map.map.reads_backs = true;
+        GN_LIST_PUSH(&frame->passes) = map;
+    }
+    gn_frame_draw_items(frame, pose, casters);
+    gn_frame_end_pass(frame);
+}
+
 /* ---- a map, or a tile of one ---- */
 
 static void bound_tile(const struct gn_shadow_view *view, uint32_t index, struct gn_pass *pass) {
@@ -66,8 +100,10 @@ static void add_tile_pass(struct gn_frame *frame, const struct gn_pose *pose, ui
                                    .mirrored = tile->mirrored,
                                    .opts = opts};
     gn_frame_set_points(frame, slot, pass);
-    if (!tile->empty) gn_frame_draw_items(frame, pose, &casters);
-    gn_frame_end_pass(frame);
+    if (tile->empty)
+        gn_frame_end_pass(frame);
+    else
+        draw_casters(frame, pose, &casters);
 }
 
 /* ---- a map, or a cascade, from pages ---- */
@@ -105,8 +141,7 @@ static void add_paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
                                        .page = i,
                                        .view = &frame->shadows[map->slot],
                                        .opts = opts};
-        gn_frame_draw_items(frame, pose, &casters);
-        gn_frame_end_pass(frame);
+        draw_casters(frame, pose, &casters);
     }
 
     struct gn_pass *pass =

@@ -103,15 +103,17 @@ enum gn_target_kind {
     GN_TARGET_PAGES,   /* beside a map, of its size, or that of one of its cascades: from here a
                           later pass copies */
     GN_TARGET_MOMENTS, /* what a map is filtered into */
+    GN_TARGET_BACKS,   /* beside a map or its pages, of their size: far sides of casters, which the
+                          next pass reads */
 };
 struct gn_rect { /* pixels of a target, first row at the bottom */
     uint32_t x, y, width, height;
 };
 struct gn_target {
     enum gn_target_kind kind;
-    uint32_t slot; /* SHADOW, PAGES, MOMENTS: which of plan->shadows */
+    uint32_t slot; /* not of the picture: which of plan->shadows */
     uint32_t width_px, height_px;
-    enum gn_encoding encoding; /* SHADOW, PAGES */
+    enum gn_encoding encoding; /* SHADOW, PAGES, BACKS */
     enum gn_moments moments;   /* MOMENTS */
     uint32_t index; /* MOMENTS: as in gn_filter_stage: 0 is the slot's own; the others are
                        shared, and hold something until the slot's filter ends */
@@ -153,7 +155,7 @@ struct gn_content {
 };
 enum gn_pass_kind {
     GN_PASS_PICTURE, /* target OUTPUT or ENCODED */
-    GN_PASS_MAP,     /* casters: to SHADOW, or to PAGES, which complete nothing */
+    GN_PASS_MAP,     /* casters: to SHADOW, or to PAGES and BACKS, which complete nothing */
     GN_PASS_COPY,    /* pages to SHADOW, which is cleared; draws nothing */
     GN_PASS_FILTER,  /* a map, or moments, to MOMENTS; one draw, not cleared */
     GN_PASS_GIVEN, /* SHADOW of encoding SCREEN: holds what gn_gl_give() put there; draws nothing */
@@ -189,6 +191,7 @@ struct gn_pass {
         } picture;
         struct gn_pass_map {
             uint32_t border_px; /* this many texels at the target's rim stay cleared (scissor) */
+            bool reads_backs;   /* BACKS of its target are behind sampler 0 */
             /* Of encoding MEAN: its draws are repeated for each point of the lamp, with constants
              * of its own; in each texel the nearest depth is drawn once per point, and subtracted.
              * Points that the map already has are skipped. */

@@ -109,6 +109,10 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
         fprintf(to, "pages of map %u (%s)", pass->target.slot,
                 gn_encodings[pass->target.encoding].name);
         break;
+    case GN_TARGET_BACKS:
+        fprintf(to, "far sides of map %u (%s)", pass->target.slot,
+                gn_encodings[pass->target.encoding].name);
+        break;
     case GN_TARGET_MOMENTS:
         fprintf(to, "moments %u of map %u (%s)", pass->target.index, pass->target.slot,
                 gn_moments[pass->target.moments].name);
@@ -156,6 +160,7 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
     if (pass->kind == GN_PASS_MAP && pass->map.point_count > 0)
         fprintf(to, ", points up to %u, each less %.4g", pass->map.point_count,
                 (double)pass->map.points[GN_POINT_CONSTANTS - 1][0]);
+    if (pass->kind == GN_PASS_MAP && pass->map.reads_backs) fprintf(to, ", reads far sides");
     if (pass->kind == GN_PASS_PICTURE)
         print_picture(plan, pass, to);
     else

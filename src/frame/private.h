@@ -63,6 +63,7 @@ struct gn_light_note {
 struct gn_frame {
     const struct gn_scene *scene;
     struct gn_caps caps;
+    bool has_middle; /* some item casts by its middle */
     struct {
         GN_LIST(struct gn_light_note) lights; /* by the scene's lights */
         uint32_t said, about[GN_NOTICE_ABOUT];
@@ -137,6 +138,7 @@ struct gn_selection {
     uint32_t page;
     const struct gn_shadow_view *view;  /* shadow pass */
     bool mirrored;                      /* drawn mirrored */
+    bool backs;                         /* only the far sides of what casts by its middle */
     const struct gn_light_group *group; /* added: draws items in its reach; NULL: the first */
     enum gn_part part;                  /* not of a shadow pass */
     uint32_t plane; /* the same: only receivers of planar shadows on it; 0: all but those on further
@@ -258,8 +260,12 @@ struct gn_map_need { /* of a light */
     enum gn_moments moments;
     struct gn_shadow_map map; /* without gutters */
     bool paged;               /* drawn in pages */
+    bool backs;               /* and the far sides of casters beside it */
 };
-/* Lights share pages of one kind, and the textures between the steps of a filter. */
+/* Whether casters may cast by their middle (GN_CAST_MIDDLE): then passes draw their far sides. */
+bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique technique,
+                         bool faces_given, enum gn_cast_faces faces);
+/* Lights share pages of one kind, far sides, and the textures between the steps of a filter. */
 uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count);
 /* Halves map_px of the maps, by slot, until they take at most so many bytes; 0: no limit. */
 void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn_shadow_opts *maps,
@@ -292,6 +298,8 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t item,
                                  const struct gn_frame_opts *opts);
 struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                     const struct gn_shadow_view *view);
+/* The same caster, by its middle. */
+void gn_key_add_middle(const struct gn_shadow_view *view, struct gn_program_key *key);
 /* The program that adds a group's light to what `lit` draws. */
 struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,

@@ -46,6 +46,12 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
                                           : gn_gl_view_find(gl, &plan->shadows[slot], slot, false);
         if (map) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture, nearest);
     }
+    if (pass->kind == GN_PASS_MAP && pass->map.reads_backs) {
+        struct gn_target target = pass->target;
+        target.kind = GN_TARGET_BACKS;
+        const struct gn_gl_map *backs = gn_gl_target_find(gl, &target);
+        if (backs) gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, backs->texture, nearest);
+    }
     if (pass->kind != GN_PASS_PICTURE) return;
     if (picture->reads_atlas)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture, nearest);

@@ -240,10 +240,11 @@ static struct gn_gl_map *map_find(struct gn_gl *gl, const struct gn_target *t) {
  * textures with mipmaps. */
 static uint32_t stand_in_px(uint32_t px) { return px & (px - 1) ? 3 : 4; }
 
-/* Normalises a target for lookup: pages, and intermediate moments, are shared by all lights with
- * the same format and size; stand-ins are shared by all lights. */
+/* Normalises a target for lookup: pages, far sides and intermediate moments are shared by all
+ * lights with the same format and size; stand-ins are shared by all lights. */
 static struct gn_target kept_target(const struct gn_gl *gl, const struct gn_target *target) {
     struct gn_target kept = *target;
+    if (kept.kind == GN_TARGET_BACKS) kept.index = 1; /* beside the pages */
     if (kept.kind == GN_TARGET_PAGES || kept.index > 0) kept.slot = GN_GL_SLOT_PAGES;
     if (!gl->targets.stand_ins) return kept;
     kept.slot = GN_GL_SLOT_STAND_INS;

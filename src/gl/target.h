@@ -21,7 +21,7 @@ struct gn_gl_map { /* a shadow map, or moments of one */
     uint32_t slot;
     enum gn_encoding encoding; /* without moments */
     enum gn_moments moments;   /* then it has no depth */
-    uint32_t index;            /* of those with moments */
+    uint32_t index;            /* of those with moments; 1: far sides of casters */
     bool mipmaps;              /* as in gn_target */
     uint32_t width_px, height_px;
     GLuint framebuffer, texture, depth;

@@ -31,7 +31,7 @@ GN_OPTION(.name = "map-clear", .section = "render", .kind = GN_KIND_CHOICE, .cho
 GN_OPTION(.name = "cascades", .section = "render", .kind = GN_KIND_CHOICE, .choices = cascade_counts, .value = "N", .fallback = "auto",
           .help = "number of maps that share the view of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.cascades))
 GN_OPTION(.name = "cast-faces", .section = "render", .kind = GN_KIND_CHOICE, .choices = cast_faces, .value = "FACES", .fallback = "auto",
-          .help = "faces that cast into shadow maps: as the scene says of each thing (auto), or of all things those that face the light, face away from it, or both", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.cast_faces))
+          .help = "faces that cast into shadow maps: as the scene says of each thing (auto), or of all things those that face the light, face away from it, both, or what lies in the middle between the two", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.cast_faces))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
           .help = "draw planar shadows with a mask texture (edges one texel soft), the stencil buffer (sharp edges) or the mean of masks over the lamp (exact penumbrae)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar))
 GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",

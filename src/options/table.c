@@ -58,6 +58,7 @@ static const struct gn_choice cast_faces[] = {{"auto", 0},
                                               {"both", 1 + GN_CAST_BOTH},
                                               {"front", 1 + GN_CAST_FRONT},
                                               {"back", 1 + GN_CAST_BACK},
+                                              {"middle", 1 + GN_CAST_MIDDLE},
                                               {0}};
 static const struct gn_choice map_ends[] = {{"far", 0}, {"near", 1}, {0}};
 static const struct gn_choice slide_aspects[] = {{"square", 0}, {"picture", 1}, {0}};

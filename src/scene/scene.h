@@ -82,7 +82,7 @@ static inline bool gn_geometry_has(const struct gn_geometry *geometry,
  * (EXT_mesh_gpu_instancing). Sorted so that items that can share an instanced call (same geometry,
  * materials that differ only in factors, same flags) stand together. */
 enum { GN_PLANES_MAX = 4 }; /* that receive planar shadows */
-enum gn_cast_faces { GN_CAST_BOTH, GN_CAST_FRONT, GN_CAST_BACK, GN_CAST_AUTO };
+enum gn_cast_faces { GN_CAST_BOTH, GN_CAST_FRONT, GN_CAST_BACK, GN_CAST_AUTO, GN_CAST_MIDDLE };
 struct gn_item {
     uint32_t node, geometry, material;
     int32_t instance;     /* index into scene->instances, or -1 */

@@ -374,6 +374,8 @@ static void try_maps(struct bench *b, enum gn_gpu_scene which) {
                 opts.view.turntable_rad = 0.7f * (float)step;
                 draw(b, &s, &opts, ALL_BUT_LIT, "maps");
             }
+            opts.shadow.faces = 1 + GN_CAST_MIDDLE;
+            if (t == GN_TECHNIQUE_HARD) draw(b, &s, &opts, ALL_BUT_LIT, "maps of middles");
         }
     stage_close(&s);
 }

@@ -1,5 +1,6 @@
 /* gnomon_cast_faces against truth, which knows nothing of it: whichever faces go into the map,
- * solid things throw the same shadow; with `both` and `auto` open and one-sided things do too. */
+ * solid things throw the same shadow; with `both`, `auto` and `middle` open and one-sided things do
+ * too. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,16 +94,17 @@ static void check(const char *faces, bool with_open, bool spot) {
 
 static void test_solid_things_by_any_faces(void **state) {
     (void)state;
-    static const char *const faces[] = {"both", "front", "back", "auto"};
-    for (int f = 0; f < 4; f++)
+    static const char *const faces[] = {"both", "front", "back", "auto", "middle"};
+    for (int f = 0; f < 5; f++)
         for (int spot = 0; spot < 2; spot++) check(faces[f], false, spot);
 }
 
-static void test_open_things_by_both_and_auto(void **state) {
+static void test_open_things_by_both_auto_and_middle(void **state) {
     (void)state;
     for (int spot = 0; spot < 2; spot++) {
         check("both", true, spot);
         check("auto", true, spot);
+        check("middle", true, spot);
     }
 }
 
@@ -120,7 +122,7 @@ static void test_one_side_of_a_sheet_throws_no_shadow(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solid_things_by_any_faces),
-        cmocka_unit_test(test_open_things_by_both_and_auto),
+        cmocka_unit_test(test_open_things_by_both_auto_and_middle),
         cmocka_unit_test(test_one_side_of_a_sheet_throws_no_shadow),
     };
     return cmocka_run_group_tests_name("cast faces", tests, NULL, NULL);

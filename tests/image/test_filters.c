@@ -104,10 +104,115 @@ static void test_boxes_against_truth(void **state) {
     free(folder);
 }
 
+/* ---- which faces cast ---- */
+
+/* A cube on the ground and one over it, under a light of that type. */
+static enum gn_light_type light_type;
+static struct gn_scene *make_cubes(void) {
+    static const char *const lights[GN_LIGHT_TYPE_COUNT] = {
+        [GN_LIGHT_DIRECTIONAL] = "'directional','intensity':3",
+        [GN_LIGHT_SPOT] = "'spot','intensity':300,'spot':{'outerConeAngle':0.9}",
+        [GN_LIGHT_POINT] = "'point','intensity':300"};
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    char extensions[256];
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_cube(&maker);
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':0,'scale':[5,1,5]},"
+                 "{'mesh':1,'translation':[-1,0.5,0],'scale':[0.5,0.5,0.5]},"
+                 "{'mesh':1,'translation':[1,1.5,0.2],'rotation':[0.28,0.36,0.1,0.884],"
+                 "'scale':[0.5,0.3,0.5]},"
+                 "{'translation':[0.3,5,0.5],'rotation':[-0.70710678,0,0,0.70710678],"
+                 "'extensions':{'KHR_lights_punctual':{'light':0}}},"
+                 "{'camera':0,'translation':[0,5,9],'rotation':[-0.2588,0,0,0.9659]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3,4]}]");
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'perspective','perspective':{'yfov':0.75,'znear':0.1,'zfar':40}}]");
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
+    snprintf(extensions, sizeof extensions, "{'KHR_lights_punctual':{'lights':[{'type':%s}]}}",
+             lights[light_type]);
+    gn_maker_set(&maker, "extensions", extensions);
+    struct gn_scene *scene = gn_maker_load(&maker, NULL, &err);
+    if (!scene) fail_msg("%s", err.text);
+    return scene;
+}
+
+enum { MAP_PX = 256, TEXELS_MAX = 6 * MAP_PX * MAP_PX };
+
+/* The distances or depths that the map holds, metres; INFINITY: nothing. */
+static uint32_t read_distances(struct help_stage *stage, enum gn_encoding encoding,
+                               enum gn_cast_faces faces, float *to) {
+    struct gn_err err = {0};
+    const struct gn_frame_opts opts = {.width_px = 160,
+                                       .height_px = 120,
+                                       .shadow.technique_given = true,
+                                       .shadow.technique = GN_TECHNIQUE_HARD,
+                                       .shadow.encoding = encoding,
+                                       .shadow.map_px = MAP_PX,
+                                       .shadow.cascades = 1,
+                                       .shadow.faces = 1 + (int)faces};
+    const struct gn_shadow_view *view = help_stage_draw(stage, &opts, NULL)->shadows;
+    assert_int_equal(view->encoding, encoding);
+    if (!gn_gl_read_map(stage->gl, 0, to, &err)) fail_msg("%s", err.text);
+    const uint32_t count = view->map.width_px * view->map.height_px;
+    for (uint32_t i = 0; i < count; i++) {
+        const float code = to[i];
+        if (code >= view->code.far_end)
+            to[i] = INFINITY;
+        else if (encoding != GN_ENCODING_DEPTH)
+            to[i] = (code - view->code.offset) / view->code.scale;
+        else
+            to[i] = view->perspective
+                        ? view->lookup.depth_code[1] / (code - view->lookup.depth_code[0])
+                        : code * view->code.far_m;
+    }
+    return count;
+}
+
+/* Half-way between first and second depth, in each texel and encoding; and where there is no back
+ * face (of the ground, which is open) what is there. */
+static void test_the_middle_lies_between_front_and_back(void **state) {
+    (void)state;
+    static const enum gn_encoding encodings[] = {GN_ENCODING_DEPTH, GN_ENCODING_R32UI,
+                                                 GN_ENCODING_R16F, GN_ENCODING_RGBA8};
+    static float front[TEXELS_MAX], back[TEXELS_MAX], middle[TEXELS_MAX];
+    for (int type = 0; type < GN_LIGHT_TYPE_COUNT; type++)
+        for (int e = 0; e < 4; e++) {
+            struct help_stage stage;
+            light_type = (enum gn_light_type)type;
+            help_stage_open(&stage, make_cubes, "egl", NULL, NULL);
+            read_distances(&stage, encodings[e], GN_CAST_FRONT, front);
+            read_distances(&stage, encodings[e], GN_CAST_BACK, back);
+            const uint32_t count = read_distances(&stage, encodings[e], GN_CAST_MIDDLE, middle);
+            int compared = 0, off = 0;
+            double thickest = 0, worst = 0;
+            for (uint32_t i = 0; i < count; i++) {
+                const double depth = (double)back[i] - (double)front[i];
+                if (!isfinite(back[i]) || !isfinite(front[i])) continue;
+                const double error =
+                    fabs((double)middle[i] - 0.5 * ((double)front[i] + (double)back[i]));
+                compared++;
+                off += error > .004;
+                worst = fmax(worst, error);
+                thickest = fmax(thickest, depth);
+            }
+            printf("%s %s: %d texels, up to %.2f m thick, middle off by %.5f m at most, %d by more "
+                   "than 4 mm\n",
+                   gn_light_types[type].name, gn_encodings[encodings[e]].name, compared, thickest,
+                   worst, off);
+            assert_true(compared > 1000 && thickest > .5);
+            assert_true(off == 0);
+            help_stage_close(&stage);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_box_is_a_straight_ramp),
         cmocka_unit_test(test_boxes_against_truth),
+        cmocka_unit_test(test_the_middle_lies_between_front_and_back),
     };
     return cmocka_run_group_tests_name("filters", tests, NULL, NULL);
 }

@@ -202,8 +202,12 @@ static void test_features(void **state) {
 static void test_casters(void **state) {
     (void)state;
     const uint64_t mask = GN_FEATURE(ALPHA_MASK) | GN_FEATURE(BASE_TEXTURE);
-    const uint64_t features[] = {0, GN_FEATURE(ALPHA_MASK), mask, mask | GN_FEATURE(BASE_UV1),
-                                 mask | GN_FEATURE(VERTEX_COLOR)};
+    const uint64_t features[] = {0,
+                                 GN_FEATURE(ALPHA_MASK),
+                                 mask,
+                                 mask | GN_FEATURE(BASE_UV1),
+                                 mask | GN_FEATURE(VERTEX_COLOR),
+                                 GN_FEATURE(MIDDLE)};
     for (size_t i = 0; i < sizeof features / sizeof *features; i++)
         for (int e = 0; e < GN_ENCODING_COUNT; e++)
             for (int spot = 0; spot < 2; spot++) {

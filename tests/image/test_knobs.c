@@ -82,12 +82,14 @@ static void test_more_cascades_are_nearer_to_truth(void **state) {
 /* Of thick bodies the faces away from the light throw the same shadow, but at contacts. */
 static void test_which_faces_cast(void **state) {
     (void)state;
-    static const char *const names[] = {"auto", "both", "front", "back"};
-    struct gn_mask_score scores[4];
-    for (int faces = 0; faces < 4; faces++) {
+    static const int words[] = {0, 1 + GN_CAST_BOTH, 1 + GN_CAST_FRONT, 1 + GN_CAST_BACK,
+                                1 + GN_CAST_MIDDLE};
+    static const char *const names[] = {"auto", "both", "front", "back", "middle"};
+    struct gn_mask_score scores[5];
+    for (int faces = 0; faces < 5; faces++) {
         struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
         struct gn_picture shot;
-        opts.shadow.faces = faces;
+        opts.shadow.faces = words[faces];
         draw(&opts);
         gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
         for (int i = 0; i < PIXELS; i++) shot.data[i] = aov[4 * i];
@@ -101,6 +103,8 @@ static void test_which_faces_cast(void **state) {
         assert_true(gn_mask_wrong(&scores[faces]) == gn_mask_wrong(&scores[0]));
     assert_true(gn_mask_gap(&scores[3]) > gn_mask_gap(&scores[0]));
     assert_true(gn_mask_gap(&scores[3]) < 2);
+    assert_true(gn_mask_gap(&scores[4]) < gn_mask_gap(&scores[3]));
+    assert_true(gn_mask_gap(&scores[4]) <= 1.01 * gn_mask_gap(&scores[0]));
 }
 
 static int count_partly_lit(void) {

@@ -64,6 +64,7 @@ static void all_that_is_allocated_is_counted(void **state) {
                                                      .shadow.planar_points =
                                                          e == GN_ENCODING_MEAN ? 64 : 0,
                                                      .shadow.maps_bytes = limits[i],
+                                                     .shadow.faces = k % 2 ? 1 + GN_CAST_MIDDLE : 0,
                                                      .shadow.cascades = k / 3 ? 1 : 0};
                         const bool filters = gn_technique_filters_map(opts.shadow.technique);
                         if (e == GN_ENCODING_STENCIL || (filters && e != GN_ENCODING_AUTO) ||

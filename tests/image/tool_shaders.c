@@ -212,6 +212,7 @@ int main(int argc, char **argv) {
         {"planar-soft", lit(FULL, GN_LIGHT_DIRECTIONAL, "planar", "mean")},
         {"planar-point", lit(FULL, GN_LIGHT_POINT, "planar", "auto")},
         {"map-depth", caster(GN_PROGRAM_DEPTH, 0, GN_ENCODING_DEPTH)},
+        {"map-depth-middle", caster(GN_PROGRAM_DEPTH, GN_FEATURE(MIDDLE), GN_ENCODING_DEPTH)},
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},
         {"map-r16f-spot", caster(GN_PROGRAM_DISTANCE, GN_FEATURE(PERSPECTIVE), GN_ENCODING_R16F)},
         {"map-rgba8", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_RGBA8)},

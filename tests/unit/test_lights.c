@@ -58,7 +58,7 @@ static void a_light_is_found_by_its_node_or_its_own_name(void **state) {
     assert_int_equal(of_light(1)->given, GN_LIGHT_TECHNIQUE);
     assert_int_equal(of_light(1)->technique, GN_TECHNIQUE_PCSS);
     assert_true(build_look("[light \"Lamp\"]\nshadow = pcss\n[light \"Spot light\"]\nmap = 64\n"
-                           "cascades = 2\ncast_faces = back\nslide_aspect = "
+                           "cascades = 2\ncast_faces = middle\nslide_aspect = "
                            "picture\nshadow_specular = 0.25\nbias = 2.5\nfilter_radius = 5\ntaps = "
                            "44\nslide_far = 3\nmap_format = "
                            "rgba16ui\nshadow_strength = 0.5\nlight_radius = 0.25\n",
@@ -72,7 +72,7 @@ static void a_light_is_found_by_its_node_or_its_own_name(void **state) {
     assert_true(of_light(1)->filter_radius_px == 5.0f);
     assert_int_equal(of_light(1)->taps, 44);
     assert_true(of_light(1)->slide_far_m == 3.0f);
-    assert_int_equal(of_light(1)->faces, 1 + GN_CAST_BACK);
+    assert_int_equal(of_light(1)->faces, 1 + GN_CAST_MIDDLE);
     assert_int_equal(of_light(1)->encoding, GN_ENCODING_AUTO);
     assert_int_equal(of_light(1)->moments, GN_MOMENTS_RGBA16UI);
     assert_true(of_light(1)->strength == 0.5f);

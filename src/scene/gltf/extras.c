@@ -113,7 +113,8 @@ void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_place
     static const char *const faces[] = {[GN_CAST_BOTH] = "both",
                                         [GN_CAST_FRONT] = "front",
                                         [GN_CAST_BACK] = "back",
-                                        [GN_CAST_AUTO] = "auto"};
+                                        [GN_CAST_AUTO] = "auto",
+                                        [GN_CAST_MIDDLE] = "middle"};
     placed->casts = placed->receives = true;
     struct gn_at extras = extras_of(node);
     if (!json_is_object(extras.json)) return;
@@ -121,7 +122,7 @@ void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_place
     take_flag(g, &extras, "gnomon_receive", &placed->receives);
     bool plane = false;
     if (take_flag(g, &extras, "gnomon_plane", &plane)) placed->plane = plane ? GN_YES : GN_NO;
-    int word = take_word(g, &extras, "gnomon_cast_faces", faces, 4);
+    int word = take_word(g, &extras, "gnomon_cast_faces", faces, 5);
     if (word >= 0) placed->cast_faces = (enum gn_cast_faces)word;
 }
 
