@@ -20,7 +20,8 @@ const char *const gn_cap_names[GN_CAP_COUNT] = {
 
 uint32_t gn_caps_encodings(const struct gn_caps *caps) {
     uint32_t proved = 1u << GN_ENCODING_RGBA8; /* every GPU renders to RGBA8 */
-    if (caps->has & 1u << GN_CAP_DEPTH_COMPARE) proved |= 1u << GN_ENCODING_DEPTH;
+    if (caps->has & 1u << GN_CAP_DEPTH_COMPARE)
+        proved |= 1u << GN_ENCODING_DEPTH | 1u << GN_ENCODING_DEPTH16;
     if (caps->has & 1u << GN_CAP_R32UI) proved |= 1u << GN_ENCODING_R32UI;
     if (caps->has & 1u << GN_CAP_R16F)
         proved |= 1u << GN_ENCODING_R16F | 1u << GN_ENCODING_R16F_RAW;

@@ -20,7 +20,7 @@ _Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZO
 static void put3(float to[4], const float *v) { memcpy(to, v, sizeof(vec3)); }
 
 static bool is_deep(const struct gn_shadow_view *view) {
-    return view->perspective && view->encoding == GN_ENCODING_DEPTH;
+    return view->perspective && gn_encoding_is_depth(view->encoding);
 }
 
 /* SHADOW_SLOPE. A directional light: where u changes by |u| in a metre and the code by |code|, the

@@ -144,7 +144,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
     key.step = (uint8_t)stage->step;
     key.moments = (uint8_t)view->moments;
     if (gn_filter_steps[stage->step].reads_map) {
-        key.encoding = (uint8_t)view->encoding;
+        key.encoding = (uint8_t)gn_encoding_of_programs(view->encoding);
         key.technique = (uint8_t)view->technique;
     }
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +

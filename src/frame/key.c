@@ -91,7 +91,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
                                 frame->scene->lights[light->light].range_m > 0.0f;
         if (i >= key->shadow_count) continue;
         key->lights[i].technique = (uint8_t)light->technique;
-        key->lights[i].encoding = (uint8_t)light->encoding;
+        key->lights[i].encoding = (uint8_t)gn_encoding_of_programs(light->encoding);
         key->lights[i].moments = (uint8_t)light->moments;
         key->lights[i].cascades = light->cascades > 1;
         const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
@@ -144,7 +144,7 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                     const struct gn_shadow_view *view) {
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
-    key.kind = view->encoding == GN_ENCODING_DEPTH     ? GN_PROGRAM_DEPTH
+    key.kind = gn_encoding_is_depth(view->encoding)    ? GN_PROGRAM_DEPTH
                : view->encoding == GN_ENCODING_STENCIL ? GN_PROGRAM_FLAT
                                                        : GN_PROGRAM_DISTANCE;
     key.features = alpha_features(frame->scene, &frame->scene->items[item]);

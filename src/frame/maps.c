@@ -30,7 +30,7 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind
     pass->clear.area = GN_CLEAR_ALL;
     pass->clear.color[0] = view->code.clear;
     pass->depth_write = view->encoding != GN_ENCODING_MASK && view->encoding != GN_ENCODING_SCREEN;
-    pass->discard_depth = pass->depth_write && view->encoding != GN_ENCODING_DEPTH;
+    pass->discard_depth = pass->depth_write && !gn_encoding_is_depth(view->encoding);
     pass->content = (struct gn_content){
         .tile = tile, .hash = view->raster.tiles[tile].content_hash, .completes = true};
     float(*constants)[4] = gn_frame_constants(frame, GN_CONSTANTS_SHADOW + slot * GN_SLOT_SETS +
@@ -61,7 +61,7 @@ static void draw_casters(struct gn_frame *frame, const struct gn_pose *pose,
         backs->clear.area = GN_CLEAR_ALL;
         backs->clear.color[0] = view->code.far_end;
         backs->content.completes = false;
-        backs->discard_depth = backs->target.encoding != GN_ENCODING_DEPTH;
+        backs->discard_depth = !gn_encoding_is_depth(backs->target.encoding);
         casters->backs = true;
         gn_frame_draw_items(frame, pose, casters);
         gn_frame_end_pass(frame);

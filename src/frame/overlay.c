@@ -133,7 +133,7 @@ static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
     char label[48];
     snprintf(label, sizeof label, "panel %u %s", slot, frame->scene->lights[view->light].name);
     struct gn_program_key key = overlay_key(frame, GN_PROGRAM_PANEL);
-    key.encoding = (uint8_t)view->encoding;
+    key.encoding = (uint8_t)gn_encoding_of_programs(view->encoding);
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_PANEL) +
                    (size_t)slot * PANEL_SIZE;
     const float size[2] = {(float)width, (float)height};

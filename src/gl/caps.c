@@ -77,6 +77,7 @@ static bool prove_caps(struct gn_gl *gl, uint32_t caps) {
 bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan) {
     static const uint32_t by_encoding[GN_ENCODING_ALL] = {
         [GN_ENCODING_DEPTH] = 1u << GN_CAP_DEPTH_COMPARE,
+        [GN_ENCODING_DEPTH16] = 1u << GN_CAP_DEPTH_COMPARE,
         [GN_ENCODING_R32UI] = 1u << GN_CAP_R32UI,
         [GN_ENCODING_R16F] = 1u << GN_CAP_R16F,
         [GN_ENCODING_R16F_RAW] = 1u << GN_CAP_R16F,

@@ -10,7 +10,7 @@ static GLuint moments_sampler(const struct gn_gl *gl, const struct gn_shadow_vie
 static GLuint map_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
     const GLuint *samplers = gl->targets.map_samplers;
     if (gn_techniques[view->technique].on_plane) return samplers[GN_GL_MAP_LINEAR];
-    if (view->encoding != GN_ENCODING_DEPTH || gn_techniques[view->technique].searches)
+    if (!gn_encoding_is_depth(view->encoding) || gn_techniques[view->technique].searches)
         return samplers[GN_GL_MAP_NEAREST];
     return samplers[gn_techniques[view->technique].compares_linear ? GN_GL_MAP_COMPARE_LINEAR
                                                                    : GN_GL_MAP_COMPARE];

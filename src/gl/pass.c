@@ -39,7 +39,7 @@ static void clear_map(struct gn_gl *gl, const struct gn_pass *pass) {
     case GN_ENCODING_MASK: GL(gl, ClearBufferfv)(GL_COLOR, 0, far_code); return; /* no depth */
     default: break;
     }
-    if (pass->kind == GN_PASS_COPY && pass->target.encoding != GN_ENCODING_DEPTH) return;
+    if (pass->kind == GN_PASS_COPY && !gn_encoding_is_depth(pass->target.encoding)) return;
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, ones);
 }
 
@@ -99,7 +99,7 @@ void gn_gl_depth_discard(struct gn_gl *gl, const struct gn_pass *pass) {
 void gn_gl_pages_copy(struct gn_gl *gl, const struct gn_pass *pass) {
     static const GLenum attachments[] = {GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
     const struct gn_gl_map *pages = gn_gl_target_find(gl, &pass->copy.from);
-    const bool is_depth = pass->target.encoding == GN_ENCODING_DEPTH;
+    const bool is_depth = gn_encoding_is_depth(pass->target.encoding);
     if (!pages) return;
     GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, pages->framebuffer);
     for (uint32_t i = 0; i < pass->copy.count; i++) {

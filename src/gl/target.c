@@ -164,6 +164,7 @@ static const GLenum map_formats[GN_ENCODING_ALL] = {
     [GN_ENCODING_R16F] = GL_R16F,
     [GN_ENCODING_R16F_RAW] = GL_R16F,
     [GN_ENCODING_RGBA8] = GL_RGBA8,
+    [GN_ENCODING_DEPTH16] = GL_DEPTH_COMPONENT16,
     [GN_ENCODING_MASK] = GL_R8,
     [GN_ENCODING_MEAN] = GL_R8,      /* blended, which ES 3.0 promises; half floats it does not */
     [GN_ENCODING_STENCIL] = GL_NONE, /* no map */
@@ -192,7 +193,7 @@ static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {
 
 static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err) {
     static const GLenum none = GL_NONE;
-    const bool is_depth = !map->moments && map->encoding == GN_ENCODING_DEPTH;
+    const bool is_depth = !map->moments && gn_encoding_is_depth(map->encoding);
     const uint32_t side = map->width_px > map->height_px ? map->width_px : map->height_px;
     GLsizei levels = 1;
     while (map->mipmaps && side >> levels > 0) levels++;

@@ -61,6 +61,11 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
         view->code.ulp_m += view->perspective ? far_depth * range / near_depth * exp2f(-23.0f)
                                               : range * exp2f(-22.0f);
         return;
+    case GN_ENCODING_DEPTH16: /* which rounds both the map and what is compared with it */
+        view->code.far_end = 1.0f;
+        view->code.ulp_m +=
+            (view->perspective ? far_depth * range / near_depth : range) * exp2f(-16.0f);
+        return;
     case GN_ENCODING_R32UI:
         if (!gn_technique_replaces_map(view->technique)) return;
         view->code.scale = 1.0f / range; /* 0 to 1, for moments */
@@ -85,7 +90,7 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
     view->penumbra.radius = f->light_radius / view->lookup.texel;
     view->penumbra.widest_px =
         view->penumbra.radius * gn_fitter_spread(f, window->near, window->far);
-    if (view->perspective && view->encoding == GN_ENCODING_DEPTH) { /* linear in 1 / depth */
+    if (view->perspective && gn_encoding_is_depth(view->encoding)) { /* linear in 1 / depth */
         view->penumbra.nearest = -1.0f / near_depth;
         view->penumbra.scale = 1.0f / near_depth - 1.0f / far_depth;
         view->penumbra.bias = -1.0f / near_depth;
@@ -99,7 +104,7 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
         view->penumbra.nearest = floorf(view->penumbra.nearest / part) * part;
     view->penumbra.farthest = window->far - near_depth;
     view->penumbra.scale =
-        view->encoding == GN_ENCODING_DEPTH ? view->code.far_m : 1.0f / view->code.scale;
+        gn_encoding_is_depth(view->encoding) ? view->code.far_m : 1.0f / view->code.scale;
     view->penumbra.bias = -view->code.offset / view->code.scale;
 }
 

@@ -4,7 +4,7 @@
 
 struct gn_shadow_grey gn_shadow_grey_of(const struct gn_shadow_view *view) {
     if (view->empty) return (struct gn_shadow_grey){0.0f, 1.0f, 1.0f};
-    if (view->encoding == GN_ENCODING_DEPTH) return (struct gn_shadow_grey){1.0f, 0.0f, 4.0f};
+    if (gn_encoding_is_depth(view->encoding)) return (struct gn_shadow_grey){1.0f, 0.0f, 4.0f};
     if (view->encoding == GN_ENCODING_MEAN)
         return (struct gn_shadow_grey){view->penumbra.scale, view->penumbra.bias, 1.0f};
     const float range_m = view->code.far_m - view->code.near_m;

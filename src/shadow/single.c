@@ -28,7 +28,7 @@ bool gn_single_fit(struct gn_fitter *f) {
     mat4 map_from_clip = {{0.5f, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 0.5f, 0}, {0.5f, 0.5f, 0.5f, 1}};
     const struct gn_shadow_tile *tile = &view->raster.tiles[0];
     glm_mat4_mul(map_from_clip, (vec4 *)tile->clip_from_world, view->lookup.map_from_world);
-    if (!view->perspective && view->encoding != GN_ENCODING_DEPTH)
+    if (!view->perspective && !gn_encoding_is_depth(view->encoding))
         for (int c = 0; c < 4; c++) {
             /* z is the code itself; the distance from the near plane is -z_ls - near */
             float depth = -tile->light_from_world[c][2] - (c == 3 ? near_depth : 0.0f);

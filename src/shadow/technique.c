@@ -20,6 +20,7 @@ const struct gn_encoding_row gn_encodings[GN_ENCODING_ALL] = {
     [GN_ENCODING_R16F] = {"r16f", "lib/map_r16f.glsl", 6},
     [GN_ENCODING_R16F_RAW] = {"r16f-raw", "lib/map_r16f.glsl", 6},
     [GN_ENCODING_RGBA8] = {"rgba8", "lib/map_rgba8.glsl", 8},
+    [GN_ENCODING_DEPTH16] = {"depth16", "lib/map_depth_code.glsl", 2},
     [GN_ENCODING_MASK] = {"mask", "lib/map_mask.glsl", 1},
     [GN_ENCODING_MEAN] = {"mean", "lib/map_mean.glsl", 3},
     [GN_ENCODING_STENCIL] = {"stencil", "lib/map_stencil.glsl", 0},
@@ -85,8 +86,8 @@ enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encodin
     if (gn_techniques[technique].on_plane) return GN_ENCODING_MASK;
     if (gn_techniques[technique].on_screen) return GN_ENCODING_SCREEN;
     if (gn_techniques[technique].reads_both) {
-        *fell_back = wanted != GN_ENCODING_AUTO && wanted != GN_ENCODING_DEPTH;
-        return GN_ENCODING_DEPTH;
+        *fell_back = wanted != GN_ENCODING_AUTO && !gn_encoding_is_depth(wanted);
+        return wanted == GN_ENCODING_DEPTH16 ? wanted : GN_ENCODING_DEPTH;
     }
     if (gn_technique_filters_map(technique)) {
         *fell_back = wanted != GN_ENCODING_AUTO;

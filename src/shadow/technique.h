@@ -28,6 +28,7 @@ enum gn_encoding {
     GN_ENCODING_R16F,  /* (d - c) / h over near..far, half float, with its own depth attachment */
     GN_ENCODING_R16F_RAW, /* metres, half float: coarse far off, shown for comparison */
     GN_ENCODING_RGBA8,    /* (d - near) / (far - near) in four bytes */
+    GN_ENCODING_DEPTH16,  /* DEPTH in 16 bits, for the same programs */
     GN_ENCODING_MASK, /* on a plane: visibility, 0 or 1. From here on only for techniques that are
                          on_plane; not selectable by name */
     GN_ENCODING_MEAN, /* on a plane: 1 less the weights of the lamp's points that are hidden */
@@ -78,6 +79,14 @@ struct gn_encoding_row {
     unsigned texel_bytes; /* with its depth attachment */
 };
 extern const struct gn_encoding_row gn_encodings[GN_ENCODING_ALL];
+
+static inline bool gn_encoding_is_depth(enum gn_encoding encoding) {
+    return encoding == GN_ENCODING_DEPTH || encoding == GN_ENCODING_DEPTH16;
+}
+/* That of the programs that draw and read such a map, in their keys. */
+static inline enum gn_encoding gn_encoding_of_programs(enum gn_encoding encoding) {
+    return encoding == GN_ENCODING_DEPTH16 ? GN_ENCODING_DEPTH : encoding;
+}
 
 /* Whether its visibility has values between 0 and 1: then those of two tiles can be mixed near
  * their common edge. */

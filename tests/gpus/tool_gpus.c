@@ -235,7 +235,8 @@ static bool has_program(const struct bench *b, enum gn_light_type type, enum gn_
         const bool shadowed = b->seen[i].shadow_count > 0 || technique == GN_TECHNIQUE_NONE;
         if (b->seen[i].kind == GN_PROGRAM_LIT && b->seen[i].light_count == 1 && shadowed &&
             light->type == type && light->technique == technique &&
-            (technique == GN_TECHNIQUE_NONE || light->encoding == encoding))
+            (technique == GN_TECHNIQUE_NONE ||
+             light->encoding == gn_encoding_of_programs(encoding)))
             return true;
     }
     return false;
@@ -267,6 +268,7 @@ static bool wants_encoding(const struct bench *b, enum gn_technique t, int encod
     if (gn_techniques[t].on_plane && encoding > GN_ENCODING_MASK) return true;
     const enum gn_encoding own = gn_encoding_choose(t, GN_ENCODING_AUTO, proved, &fell_back);
     if (encoding == (int)own) return true;
+    if (encoding == GN_ENCODING_DEPTH16) return false; /* has the programs of DEPTH */
     return all &&
            (int)gn_encoding_choose(t, (enum gn_encoding)encoding, proved, &fell_back) == encoding &&
            !fell_back;

@@ -141,18 +141,22 @@ static struct gn_scene *make_cubes(void) {
 
 enum { MAP_PX = 256, TEXELS_MAX = 6 * MAP_PX * MAP_PX };
 
+static struct gn_frame_opts map_opts(enum gn_encoding encoding) {
+    return (struct gn_frame_opts){.width_px = 160,
+                                  .height_px = 120,
+                                  .shadow.technique_given = true,
+                                  .shadow.technique = GN_TECHNIQUE_HARD,
+                                  .shadow.encoding = encoding,
+                                  .shadow.map_px = MAP_PX,
+                                  .shadow.cascades = 1};
+}
+
 /* The distances or depths that the map holds, metres; INFINITY: nothing. */
 static uint32_t read_distances(struct help_stage *stage, enum gn_encoding encoding,
                                enum gn_cast_faces faces, float *to) {
     struct gn_err err = {0};
-    const struct gn_frame_opts opts = {.width_px = 160,
-                                       .height_px = 120,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = GN_TECHNIQUE_HARD,
-                                       .shadow.encoding = encoding,
-                                       .shadow.map_px = MAP_PX,
-                                       .shadow.cascades = 1,
-                                       .shadow.faces = 1 + (int)faces};
+    struct gn_frame_opts opts = map_opts(encoding);
+    opts.shadow.faces = 1 + (int)faces;
     const struct gn_shadow_view *view = help_stage_draw(stage, &opts, NULL)->shadows;
     assert_int_equal(view->encoding, encoding);
     if (!gn_gl_read_map(stage->gl, 0, to, &err)) fail_msg("%s", err.text);
@@ -161,7 +165,7 @@ static uint32_t read_distances(struct help_stage *stage, enum gn_encoding encodi
         const float code = to[i];
         if (code >= view->code.far_end)
             to[i] = INFINITY;
-        else if (encoding != GN_ENCODING_DEPTH)
+        else if (!gn_encoding_is_depth(encoding))
             to[i] = (code - view->code.offset) / view->code.scale;
         else
             to[i] = view->perspective
@@ -176,10 +180,11 @@ static uint32_t read_distances(struct help_stage *stage, enum gn_encoding encodi
 static void test_the_middle_lies_between_front_and_back(void **state) {
     (void)state;
     static const enum gn_encoding encodings[] = {GN_ENCODING_DEPTH, GN_ENCODING_R32UI,
-                                                 GN_ENCODING_R16F, GN_ENCODING_RGBA8};
+                                                 GN_ENCODING_R16F, GN_ENCODING_RGBA8,
+                                                 GN_ENCODING_DEPTH16};
     static float front[TEXELS_MAX], back[TEXELS_MAX], middle[TEXELS_MAX];
     for (int type = 0; type < GN_LIGHT_TYPE_COUNT; type++)
-        for (int e = 0; e < 4; e++) {
+        for (int e = 0; e < 5; e++) {
             struct help_stage stage;
             light_type = (enum gn_light_type)type;
             help_stage_open(&stage, make_cubes, "egl", NULL, NULL);
@@ -208,10 +213,39 @@ static void test_the_middle_lies_between_front_and_back(void **state) {
         }
 }
 
+/* A map of 16 bits holds multiples of a step that one of 24 bits does not. */
+static void test_sixteen_bits_are_sixteen(void **state) {
+    (void)state;
+    static const enum gn_encoding encodings[] = {GN_ENCODING_DEPTH, GN_ENCODING_DEPTH16};
+    static float map[TEXELS_MAX];
+    struct help_stage stage;
+    light_type = GN_LIGHT_SPOT;
+    help_stage_open(&stage, make_cubes, "egl", NULL, NULL);
+    for (int i = 0; i < 2; i++) {
+        struct gn_frame_opts opts = map_opts(encodings[i]);
+        struct gn_err err = {0};
+        const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
+        if (!gn_gl_read_map(stage.gl, 0, map, &err)) fail_msg("%s", err.text);
+        int odd = 0;
+        for (int k = 0; k < MAP_PX * MAP_PX; k++) {
+            const double steps = (double)map[k] * 65535;
+            odd += fabs(steps - round(steps)) > .02;
+        }
+        printf("%s: %d of %d texels between steps of 16 bits, %llu bytes\n",
+               gn_encodings[encodings[i]].name, odd, MAP_PX * MAP_PX,
+               (unsigned long long)gn_plan_map_bytes(plan));
+        assert_true(encodings[i] == GN_ENCODING_DEPTH ? odd > 1000 : odd == 0);
+        assert_int_equal(gn_plan_map_bytes(plan),
+                         MAP_PX * MAP_PX * (encodings[i] == GN_ENCODING_DEPTH ? 4 : 2));
+    }
+    help_stage_close(&stage);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_box_is_a_straight_ramp),
         cmocka_unit_test(test_boxes_against_truth),
+        cmocka_unit_test(test_sixteen_bits_are_sixteen),
         cmocka_unit_test(test_the_middle_lies_between_front_and_back),
     };
     return cmocka_run_group_tests_name("filters", tests, NULL, NULL);

@@ -107,6 +107,34 @@ static void test_which_faces_cast(void **state) {
     assert_true(gn_mask_gap(&scores[4]) <= 1.01 * gn_mask_gap(&scores[0]));
 }
 
+/* Over 850 m a step of 16 bits is as large as a texel of the first cascade: the bias covers it, at
+ * the price of light at contacts. */
+static void test_sixteen_bits(void **state) {
+    (void)state;
+    static const enum gn_encoding encodings[] = {GN_ENCODING_DEPTH, GN_ENCODING_DEPTH16};
+    struct gn_mask_score scores[2];
+    float bias_m[2];
+    for (int i = 0; i < 2; i++) {
+        struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
+        struct gn_picture shot;
+        opts.shadow.encoding = encodings[i];
+        const struct gn_shadow_view *view = draw(&opts)->shadows;
+        assert_int_equal(view->encoding, encodings[i]);
+        bias_m[i] = view->code.ulp_m;
+        gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
+        for (int k = 0; k < PIXELS; k++) shot.data[k] = aov[4 * k];
+        gn_mask_compare(&truth.mask, shot.data, shot.channels, &scores[i]);
+        gn_picture_finish(&shot);
+        printf("%s: bias of the encoding %.1f mm, acne %.4f %%, leak %.4f %%, gap %.2f %%, wrong "
+               "%.3f %%\n",
+               gn_encodings[encodings[i]].name, 1000 * (double)bias_m[i], gn_mask_acne(&scores[i]),
+               gn_mask_leak(&scores[i]), gn_mask_gap(&scores[i]), gn_mask_wrong(&scores[i]));
+    }
+    assert_true(bias_m[1] > 10 * bias_m[0]);
+    assert_true(gn_mask_acne(&scores[1]) <= .02);
+    assert_true(gn_mask_gap(&scores[1]) < 2);
+}
+
 static int count_partly_lit(void) {
     int count = 0;
     for (int i = 0; i < PIXELS; i++)
@@ -186,6 +214,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_more_cascades_are_nearer_to_truth),
         cmocka_unit_test(test_which_faces_cast),
+        cmocka_unit_test(test_sixteen_bits),
         cmocka_unit_test(test_a_larger_light_has_wider_penumbrae),
         cmocka_unit_test(test_highlights_stay_in_shadow_as_told),
         cmocka_unit_test(test_what_a_light_sees_is_lit),

@@ -87,7 +87,7 @@ static const char *const moments_formats[GN_MOMENTS_COUNT] = {
 static const char *target_of(const struct gn_program_key *key) {
     if (key->kind == GN_PROGRAM_FILTER) return moments_formats[key->moments];
     static const char *const maps[GN_ENCODING_COUNT] = {"none",  "R32UI", "R16F", "R16F",
-                                                        "RGBA8", "R8",    "R8"};
+                                                        "RGBA8", "none",  "R8",   "R8"};
     if (key->kind == GN_PROGRAM_DEPTH) return "none";
     return key->kind == GN_PROGRAM_DISTANCE ? maps[key->encoding] : "SRGB8A8";
 }
@@ -95,7 +95,7 @@ static const char *target_of(const struct gn_program_key *key) {
 static bool write(const char *folder, const char *name, const struct gn_program_key *key,
                   struct gn_err *err) {
     static const char *const formats[GN_ENCODING_COUNT] = {"D24",   "R32UI", "R16F", "R16F",
-                                                           "RGBA8", "R8",    "R8"};
+                                                           "RGBA8", "D16",   "R8",   "R8"};
     static const char *const endings[] = {"vert", "frag"};
     for (int shader = GN_GL_VERTEX; shader <= GN_GL_FRAGMENT; shader++) {
         struct gn_gl_text text = {0};
@@ -159,7 +159,7 @@ static bool write_all(const char *folder, struct gn_err *err) {
                                                           UINT32_MAX, &fell_back);
                 bool by_hand = gn_techniques[t].on_plane
                                    ? e > GN_ENCODING_MASK
-                                   : t == GN_TECHNIQUE_HARD && e < GN_ENCODING_MASK;
+                                   : t == GN_TECHNIQUE_HARD && e < GN_ENCODING_DEPTH16;
                 if (e != (int)own && !by_hand) continue;
                 char name[80];
                 snprintf(name, sizeof name, "%s-%s-%s", gn_techniques[t].name, light,
