@@ -32,7 +32,7 @@ uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count) {
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct gn_map_need *need = &needs[i];
-        const struct gn_filter_row *filter = &gn_filters[gn_techniques[need->technique].filter];
+        const struct gn_filter_row *filter = gn_technique_filter(need->technique, need->moments);
         const uint64_t tile_px = need->map.tile_px;
         const unsigned texel_bytes = gn_encodings[need->encoding].texel_bytes;
         const uint64_t page_bytes = tile_px * tile_px * texel_bytes;

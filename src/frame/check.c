@@ -23,7 +23,8 @@ static const char *check_draw(const struct gn_plan *plan, const struct gn_pass *
     }
     REQUIRE(draw->cull <= GN_CULL_FRONT);
     REQUIRE(gn_programs[key->kind].pass == pass->kind);
-    if (key->kind == GN_PROGRAM_FILTER) REQUIRE(key->moments == pass->target.moments);
+    if (key->kind == GN_PROGRAM_FILTER)
+        REQUIRE(key->moments == gn_moments_of_programs(pass->target.moments));
     if (pass->kind != GN_PASS_PICTURE) return NULL;
     const struct gn_pass_picture *picture = &pass->picture;
     const bool adds = key->features & GN_FEATURE(ADDITIVE);

@@ -9,8 +9,9 @@
 #include "core/hash.h"
 #include "frame/private.h"
 
-/* 0: none. */
+/* Half the width of the filter's box; 0: none. */
 static float blur_of(const struct gn_shadow_view *view, uint32_t tile) {
+    if (view->moments == GN_MOMENTS_RGBA16F_MIPS) return 0.5f;
     return view->map.cascade_count > 0 ? view->cascades[tile].blur_px : view->penumbra.blur_px;
 }
 
@@ -136,13 +137,13 @@ _Static_assert(PASS_CODE_ADD < CONSTANTS_AT &&
 
 static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile, uint32_t index) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
+    const struct gn_filter_row *filter = gn_technique_filter(view->technique, view->moments);
     const struct gn_filter_stage *stage = &filter->stages[index];
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_FILTER;
     key.step = (uint8_t)stage->step;
-    key.moments = (uint8_t)view->moments;
+    key.moments = (uint8_t)gn_moments_of_programs(view->moments);
     if (gn_filter_steps[stage->step].reads_map) {
         key.encoding = (uint8_t)gn_encoding_of_programs(view->encoding);
         key.technique = (uint8_t)view->technique;
@@ -194,7 +195,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
 
 void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
-    const struct gn_filter_row *filter = &gn_filters[gn_techniques[view->technique].filter];
+    const struct gn_filter_row *filter = gn_technique_filter(view->technique, view->moments);
     for (uint32_t i = 0; i < filter->count; i++) {
         if (is_left_out(view, &filter->stages[i])) continue;
         for (uint32_t tile = 0; tile < view->map.tile_count; tile++)

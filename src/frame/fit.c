@@ -28,6 +28,18 @@ static void set_clear(struct gn_shadow_view *view, bool near_end) {
     }
 }
 
+/* Mipmaps would mix the tiles of a map: those are blurred instead. */
+static void take_mipmaps(struct gn_frame *frame, struct gn_frame_light *light,
+                         struct gn_shadow_opts *shadow, struct gn_warnings *warnings) {
+    const struct gn_light *l = &frame->scene->lights[light->light];
+    const bool tiles = shadow->cascades > 1 || gn_shadow_tile_count(l->type, light->technique) > 1;
+    if (shadow->moments != GN_MOMENTS_RGBA16F_MIPS || !tiles) return;
+    light->moments = shadow->moments = GN_MOMENTS_RGBA16F;
+    if (gn_frame_notice(&frame->notes.lights.at[light->light].said, GN_NOTICE_ENCODING, warnings))
+        gn_warn(warnings, "light '%s': its map has tiles, which %s would mix; using %s", l->name,
+                gn_moments[GN_MOMENTS_RGBA16F_MIPS].name, gn_moments[light->moments].name);
+}
+
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, struct gn_warnings *warnings) {
     struct gn_shadow_opts maps[GN_ALL_SHADOWS_MAX];
@@ -76,6 +88,7 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         else
             shadow->cascades = gn_cascade_can(l, &frame->eye, shadow) ? count : 1;
         light->cascades = shadow->cascades;
+        take_mipmaps(frame, light, shadow, warnings);
         if (shadow->cascades > 1) gn_frame_make_memories(frame, slot, GN_CASCADE_MEMORIES);
         const uint32_t most_each = gn_frame_most_px(frame, light, shadow->cascades);
         if (shadow->map_px > most_each) shadow->map_px = most_each;

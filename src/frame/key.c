@@ -92,7 +92,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         if (i >= key->shadow_count) continue;
         key->lights[i].technique = (uint8_t)light->technique;
         key->lights[i].encoding = (uint8_t)gn_encoding_of_programs(light->encoding);
-        key->lights[i].moments = (uint8_t)light->moments;
+        key->lights[i].moments = (uint8_t)gn_moments_of_programs(light->moments);
         key->lights[i].cascades = light->cascades > 1;
         const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
         key->lights[i].filter_set = gn_techniques[light->technique].filter_radius_px > 0.0f &&

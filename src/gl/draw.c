@@ -1,8 +1,10 @@
 /* The draws of a pass, and what they read. */
 #include "gl/private.h"
 
-static GLuint moments_sampler(const struct gn_gl *gl, const struct gn_shadow_view *view) {
+static GLuint moments_sampler(struct gn_gl *gl, const struct gn_shadow_view *view, GLuint i) {
     const GLuint *samplers = gl->targets.map_samplers;
+    if (view->moments == GN_MOMENTS_RGBA16F_MIPS)
+        return gn_gl_mipmap_sampler(gl, i, gn_mipmap_of_blur(view->penumbra.blur_px));
     if (gn_view_has_mipmaps(view)) return samplers[GN_GL_MAP_TRILINEAR];
     return samplers[gn_moments[view->moments].linear ? GN_GL_MAP_LINEAR : GN_GL_MAP_NEAREST];
 }
@@ -23,10 +25,10 @@ static void bind_map(struct gn_gl *gl, const struct gn_shadow_view *view, uint32
     const struct gn_gl_map *filtered = gn_gl_view_find(gl, view, slot, true);
     if (map)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, map->texture,
-                           replaced ? moments_sampler(gl, view) : map_sampler(gl, view));
+                           replaced ? moments_sampler(gl, view, i) : map_sampler(gl, view));
     if (filtered && filtered != map)
         gn_gl_bind_texture(gl, GN_GL_UNIT_FILTERED + i, filtered->texture,
-                           moments_sampler(gl, view));
+                           moments_sampler(gl, view, i));
 }
 
 void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass) {

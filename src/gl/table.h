@@ -86,6 +86,7 @@
     X(PFNGLRELEASESHADERCOMPILERPROC, ReleaseShaderCompiler)                                       \
     X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)                                           \
     X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample)                     \
+    X(PFNGLSAMPLERPARAMETERFPROC, SamplerParameterf)                                               \
     X(PFNGLSAMPLERPARAMETERIPROC, SamplerParameteri)                                               \
     X(PFNGLSCISSORPROC, Scissor)                                                                   \
     X(PFNGLSHADERSOURCEPROC, ShaderSource)                                                         \

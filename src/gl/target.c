@@ -176,6 +176,7 @@ static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RG32UI] = GL_RG32UI,
     [GN_MOMENTS_RGBA16UI] = GL_RGBA16UI,
     [GN_MOMENTS_RGBA16F] = GL_RGBA16F,
+    [GN_MOMENTS_RGBA16F_MIPS] = GL_RGBA16F,
     [GN_MOMENTS_RGBA32F_BITS] = GL_RGBA32UI,
     [GN_MOMENTS_RGBA32F_SHARE] = GL_RGBA32UI,
     [GN_MOMENTS_TABLE_RGBA32UI] = GL_RGBA32UI,
@@ -368,20 +369,33 @@ uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {
     return bytes;
 }
 
+static GLuint make_sampler(struct gn_gl *gl, GLint minified, GLint magnified) {
+    const GLuint s = gn_gl_object_create(gl, GN_GL_SAMPLER);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MIN_FILTER, minified);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, magnified);
+    return s;
+}
+
 void gn_gl_targets_init(struct gn_gl *gl) {
     for (enum gn_gl_map_sampler kind = 0; kind < GN_GL_MAP_SAMPLER_COUNT; kind++) {
         const bool nearest = kind == GN_GL_MAP_COMPARE || kind == GN_GL_MAP_NEAREST;
         const GLint filter = nearest ? GL_NEAREST : GL_LINEAR;
-        GLuint s = gl->targets.map_samplers[kind] = gn_gl_object_create(gl, GN_GL_SAMPLER);
-        GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-        GL(gl, SamplerParameteri)
-        (s, GL_TEXTURE_MIN_FILTER, kind == GN_GL_MAP_TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : filter);
-        GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, filter);
+        const GLuint s = gl->targets.map_samplers[kind] = make_sampler(
+            gl, kind == GN_GL_MAP_TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : filter, filter);
         if (kind < GN_GL_MAP_COMPARE) continue;
         GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
+    for (int i = 0; i < GN_SHADOWS_MAX; i++)
+        gl->targets.mipmap_samplers[i] = make_sampler(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+}
+
+GLuint gn_gl_mipmap_sampler(struct gn_gl *gl, uint32_t unit, float mipmap) {
+    const GLuint s = gl->targets.mipmap_samplers[unit];
+    GL(gl, SamplerParameterf)(s, GL_TEXTURE_MIN_LOD, mipmap);
+    return s;
 }
 
 void gn_gl_targets_finish(struct gn_gl *gl) {
@@ -390,4 +404,6 @@ void gn_gl_targets_finish(struct gn_gl *gl) {
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) map_finish(gl, &gl->targets.maps[i]);
     for (int i = 0; i < GN_GL_MAP_SAMPLER_COUNT; i++)
         gn_gl_object_destroy(gl, GN_GL_SAMPLER, &gl->targets.map_samplers[i]);
+    for (int i = 0; i < GN_SHADOWS_MAX; i++)
+        gn_gl_object_destroy(gl, GN_GL_SAMPLER, &gl->targets.mipmap_samplers[i]);
 }

@@ -48,6 +48,7 @@ struct gn_gl_targets {
     struct gn_gl_output output;
     struct gn_gl_map maps[GN_GL_MAPS_MAX];
     GLuint map_samplers[GN_GL_MAP_SAMPLER_COUNT];
+    GLuint mipmap_samplers[GN_SHADOWS_MAX]; /* by unit: of a mipmap of their own */
     uint64_t prepares;
     bool stand_ins;            /* maps, pages and moments are a few texels: for warm-up draws */
     bool wants_stencil;        /* some plan will need one: avoids creating the output twice */
@@ -63,6 +64,8 @@ GLuint gn_gl_output_finished(const struct gn_gl_output *output);
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
 /* The map, pages or moments of a target; NULL: not created. */
 struct gn_gl_map *gn_gl_target_find(struct gn_gl *gl, const struct gn_target *target);
+/* Samples no finer mipmaps than that, which may lie between two; for that unit. */
+GLuint gn_gl_mipmap_sampler(struct gn_gl *gl, uint32_t unit, float mipmap);
 /* Generates mipmaps, if it has any, after the base level was drawn. */
 void gn_gl_target_reduce(struct gn_gl *gl, const struct gn_gl_map *map);
 /* The map of a light; or_moments: its moments where it has some, which shaders then sample. */

@@ -1,5 +1,6 @@
 #include "shadow/moments.h"
 
+#include <math.h>
 #include <string.h>
 
 const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
@@ -8,6 +9,8 @@ const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RGBA16UI] = {"rgba16ui", "lib/moments_16ui.glsl", "usampler2D", 8},
     [GN_MOMENTS_RGBA16F] = {"rgba16f", "lib/moments_16f.glsl", "sampler2D", 8, .linear = true,
                             .mipmaps = true},
+    [GN_MOMENTS_RGBA16F_MIPS] = {"rgba16f-mips", "lib/moments_16f.glsl", "sampler2D", 8,
+                                 .linear = true, .mipmaps = true},
     [GN_MOMENTS_RGBA32F_BITS] = {"rgba32f-bits", "lib/moments_bits.glsl", "usampler2D", 16},
     [GN_MOMENTS_RGBA32F_SHARE] = {"rgba32f-share", "lib/moments_share.glsl", "usampler2D", 16},
     [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", "usampler2D", 16},
@@ -31,6 +34,8 @@ const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
 
 const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
     [GN_FILTER_NONE] = {.count = 0},
+    [GN_FILTER_MIPS] = {.count = 1,
+                        .stages = {{GN_STEP_BLUR_X, {GN_FROM_MAP, GN_FROM_NOTHING}, 0}}},
     [GN_FILTER_BLUR] = {.count = 2,
                         .stages = {{GN_STEP_BLUR_X, {GN_FROM_MAP, GN_FROM_NOTHING}, 1},
                                    {GN_STEP_BLUR_Y, {1, GN_FROM_NOTHING}, 0}}},
@@ -54,6 +59,9 @@ const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
                                    {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 2},
                                    {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 1}}},
 };
+
+/* Box of a texel s: s^2 / 12; linear weights: s^2 / 6; the blur's: (2 blur)^2 / 12. */
+float gn_mipmap_of_blur(float blur_px) { return log2f(2.0f * blur_px / sqrtf(3.0f)); }
 
 bool gn_moments_find(const char *name, enum gn_moments *out) {
     for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)

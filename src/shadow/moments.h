@@ -20,6 +20,8 @@ enum gn_moments {
     GN_MOMENTS_RG32UI,         /* three of 0..1 in 21 bits each */
     GN_MOMENTS_RGBA16UI,       /* four of 0..1 in 16 bits */
     GN_MOMENTS_RGBA16F,        /* filtered by the sampler */
+    GN_MOMENTS_RGBA16F_MIPS,   /* the same, not blurred: averaged by mipmaps, for the same programs.
+                                  Of maps of one tile */
     GN_MOMENTS_RGBA32F_BITS,   /* bits of floats in integers: drawn to by all of ES 3.0 */
     GN_MOMENTS_RGBA32F_SHARE,  /* the same, and in the last ones of all four how much is covered */
     GN_MOMENTS_TABLE_RGBA32UI, /* sums, in fixed point that wraps round */
@@ -64,6 +66,7 @@ extern const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT];
  * the light's own, which the last pass fills; the others are shared by all lights. */
 enum gn_filter {
     GN_FILTER_NONE,
+    GN_FILTER_MIPS,  /* moments alone; mipmaps average them */
     GN_FILTER_BLUR,  /* a box, as wide as gn_shadow_view.penumbra.blur_px */
     GN_FILTER_TABLE, /* sums over all texels to the lower left, tile by tile */
     GN_FILTER_CONE,  /* the first cone behind a blocker at each place, tile by tile */
@@ -85,6 +88,14 @@ struct gn_filter_row {
     struct gn_filter_stage stages[GN_FILTER_STAGES_MAX];
 };
 extern const struct gn_filter_row gn_filters[GN_FILTER_COUNT];
+
+/* Of the programs that write and read such moments, in their keys. */
+static inline enum gn_moments gn_moments_of_programs(enum gn_moments moments) {
+    return moments == GN_MOMENTS_RGBA16F_MIPS ? GN_MOMENTS_RGBA16F : moments;
+}
+/* The mipmap that averages as a box does which is so many texels wide to each side: a texel of it,
+ * and linear weights between them, have the box's variance. */
+float gn_mipmap_of_blur(float blur_px);
 
 /* Half the width of a blur, texels: a map is fit for the most. */
 #define GN_BLUR_LEAST_PX 1.5f

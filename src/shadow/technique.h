@@ -92,6 +92,13 @@ static inline enum gn_encoding gn_encoding_of_programs(enum gn_encoding encoding
  * their common edge. */
 bool gn_technique_shades(enum gn_technique technique);
 
+/* What makes its moments of the map. */
+static inline const struct gn_filter_row *gn_technique_filter(enum gn_technique technique,
+                                                              enum gn_moments moments) {
+    return &gn_filters[moments == GN_MOMENTS_RGBA16F_MIPS ? GN_FILTER_MIPS
+                                                          : gn_techniques[technique].filter];
+}
+
 /* Whether it reads a filtered map. */
 static inline bool gn_technique_filters_map(enum gn_technique technique) {
     return gn_techniques[technique].filter != GN_FILTER_NONE;

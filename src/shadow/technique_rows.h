@@ -45,8 +45,9 @@ ROW(CONE, .name = "cone", .rank = 2, .file = "shadow/cone.glsl", .compares_linea
     .source = "Rong, Tan 2006; Fernando 2005")
 ROW(VSM, .name = "vsm", .rank = 8, .file = "shadow/vsm.glsl", .filter = GN_FILTER_BLUR,
     .moments = "moments/vsm.glsl", .moments_middle = 0.5f,
-    .stores = {GN_MOMENTS_RG32UI, GN_MOMENTS_RGBA16UI, GN_MOMENTS_RGBA16F}, .radius_texels = 6,
-    .bias_texels = 1.0f, .what = "two moments of a blurred map, Chebyshev's inequality",
+    .stores = {GN_MOMENTS_RG32UI, GN_MOMENTS_RGBA16UI, GN_MOMENTS_RGBA16F, GN_MOMENTS_RGBA16F_MIPS},
+    .radius_texels = 6, .bias_texels = 1.0f,
+    .what = "two moments of a blurred map, Chebyshev's inequality",
     .source = "Donnelly, Lauritzen 2006")
 ROW(EVSM, .name = "evsm", .rank = 7, .file = "shadow/evsm.glsl", .filter = GN_FILTER_BLUR,
     .moments = "moments/evsm.glsl", .stores = {GN_MOMENTS_RGBA32F_SHARE}, .radius_texels = 6,

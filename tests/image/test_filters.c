@@ -83,8 +83,52 @@ static void test_a_box_is_a_straight_ramp(void **state) {
     help_stage_close(&stage);
 }
 
+/* From visibility .1 to .9, texels: the mean over maps of several sizes, whose mipmaps lie
+ * otherwise beside the edge. */
+static double width_of_vsm(struct help_stage *stage, enum gn_moments moments, int *filters) {
+    enum { SIZES = 12 };
+    static float aov[4 * PIXELS];
+    struct gn_err err = {0};
+    double sum = 0;
+    for (uint32_t i = 0; i < SIZES; i++) {
+        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
+                                           .height_px = HEIGHT_PX,
+                                           .shadow.technique_given = true,
+                                           .shadow.technique = GN_TECHNIQUE_VSM,
+                                           .shadow.encoding = GN_ENCODING_AUTO,
+                                           .shadow.moments = moments,
+                                           .shadow.map_px = 64 + 5 * i,
+                                           .debug.aov = GN_AOV_VISIBILITY};
+        const struct gn_plan *plan = help_stage_draw(stage, &opts, NULL);
+        if (!gn_gl_read_f32(stage->gl, aov, &err)) fail_msg("%s", err.text);
+        const double px = (double)plan->shadows[0].lookup.texel / SUN_COSINE * WIDTH_PX / VIEW_M;
+        assert_int_equal(plan->shadows[0].moments, moments);
+        *filters = 0;
+        for (uint32_t k = 0; k < plan->pass_count; k++)
+            *filters += plan->passes[k].kind == GN_PASS_FILTER;
+        sum += (place_of(aov, .9) - place_of(aov, .1)) / px / SIZES;
+    }
+    printf("vsm %s: from .1 to .9 in %.2f texels, %d passes\n", gn_moments[moments].name, sum,
+           *filters);
+    return sum;
+}
+
+/* Mipmaps average about as widely as the blur does that they take the place of, in one pass. */
+static void test_mipmaps_are_as_wide_as_the_blur(void **state) {
+    (void)state;
+    struct help_stage stage;
+    int blurs, mips;
+    help_stage_open(&stage, make_edge, "egl", NULL, NULL);
+    const double blur = width_of_vsm(&stage, GN_MOMENTS_RGBA16F, &blurs),
+                 mipmap = width_of_vsm(&stage, GN_MOMENTS_RGBA16F_MIPS, &mips);
+    help_stage_close(&stage);
+    assert_true(mipmap > .75 * blur && mipmap < 1.33 * blur);
+    assert_int_equal(blurs, 2);
+    assert_int_equal(mips, 1);
+}
+
 /* The limits of the project, over two scenes of each kind of light, and one of coarse meshes. */
-static void test_boxes_against_truth(void **state) {
+static void test_them_against_truth(void **state) {
     (void)state;
     static const int scenes[] = {2, 7, 14, 19, 25, 28, 31, 34, 37};
     static struct gn_table table;
@@ -96,6 +140,7 @@ static void test_boxes_against_truth(void **state) {
         for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) table.scenes[scenes[i]] = true;
         gn_table_add(&table, "box3", "depth", 1024);
         gn_table_add(&table, "box5", "depth", 1024);
+        gn_table_add(&table, "vsm", "rgba16f-mips", 1024);
         gn_table_keep(&table, (enum gn_table_kind)kind);
         gn_table_run(&table);
         gn_table_print(&table, stdout);
@@ -241,11 +286,32 @@ static void test_sixteen_bits_are_sixteen(void **state) {
     help_stage_close(&stage);
 }
 
+/* Mipmaps would mix the tiles of a point light: those are blurred. */
+static void test_tiles_have_no_mipmaps(void **state) {
+    (void)state;
+    for (int type = 0; type < GN_LIGHT_TYPE_COUNT; type++) {
+        struct help_stage stage;
+        struct gn_warnings warnings = {0};
+        struct gn_frame_opts opts = map_opts(GN_ENCODING_AUTO);
+        opts.shadow.technique = GN_TECHNIQUE_VSM;
+        opts.shadow.moments = GN_MOMENTS_RGBA16F_MIPS;
+        light_type = (enum gn_light_type)type;
+        help_stage_open(&stage, make_cubes, "egl", NULL, NULL);
+        const struct gn_plan *plan = help_stage_draw(&stage, &opts, &warnings);
+        assert_int_equal(plan->shadows[0].moments,
+                         type == GN_LIGHT_POINT ? GN_MOMENTS_RGBA16F : GN_MOMENTS_RGBA16F_MIPS);
+        assert_int_equal(warnings.count, type == GN_LIGHT_POINT ? 1 : 0);
+        help_stage_close(&stage);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_box_is_a_straight_ramp),
-        cmocka_unit_test(test_boxes_against_truth),
+        cmocka_unit_test(test_mipmaps_are_as_wide_as_the_blur),
+        cmocka_unit_test(test_them_against_truth),
         cmocka_unit_test(test_sixteen_bits_are_sixteen),
+        cmocka_unit_test(test_tiles_have_no_mipmaps),
         cmocka_unit_test(test_the_middle_lies_between_front_and_back),
     };
     return cmocka_run_group_tests_name("filters", tests, NULL, NULL);

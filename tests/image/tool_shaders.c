@@ -77,11 +77,11 @@ static struct gn_program_key filter(enum gn_technique technique, enum gn_filter_
 }
 
 static const char *const moments_formats[GN_MOMENTS_COUNT] = {
-    [GN_MOMENTS_RG32UI] = "RG32UI",          [GN_MOMENTS_RGBA16UI] = "RGBA16UI",
-    [GN_MOMENTS_RGBA16F] = "RGBA16F",        [GN_MOMENTS_RGBA32F_BITS] = "RGBA32UI",
-    [GN_MOMENTS_RGBA32F_SHARE] = "RGBA32UI", [GN_MOMENTS_TABLE_RGBA32UI] = "RGBA32UI",
-    [GN_MOMENTS_CONE_RG16F] = "RG16F",       [GN_MOMENTS_CONE_BITS] = "R32UI",
-    [GN_MOMENTS_CONE_BYTES] = "RGBA8",
+    [GN_MOMENTS_RG32UI] = "RG32UI",           [GN_MOMENTS_RGBA16UI] = "RGBA16UI",
+    [GN_MOMENTS_RGBA16F] = "RGBA16F",         [GN_MOMENTS_RGBA16F_MIPS] = "RGBA16F",
+    [GN_MOMENTS_RGBA32F_BITS] = "RGBA32UI",   [GN_MOMENTS_RGBA32F_SHARE] = "RGBA32UI",
+    [GN_MOMENTS_TABLE_RGBA32UI] = "RGBA32UI", [GN_MOMENTS_CONE_RG16F] = "RG16F",
+    [GN_MOMENTS_CONE_BITS] = "R32UI",         [GN_MOMENTS_CONE_BYTES] = "RGBA8",
 };
 
 static const char *target_of(const struct gn_program_key *key) {
