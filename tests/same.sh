@@ -72,7 +72,7 @@ head_lines() {
 
 default_scene() {
     small
-    for shadow in none hard pcf pcf2 pcf3 pcf5 box3 box5 disk poisson pcss vsm evsm msm vssm smsm planar; do
+    for shadow in none hard pcf pcf2 pcf3 pcf5 box3 box5 disk poisson white pcss vsm evsm msm vssm smsm planar; do
         small --shadow $shadow
         small --shadow $shadow --camera Dial --time 3.5
         small --shadow $shadow --light 1 --aov visibility

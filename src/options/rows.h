@@ -37,7 +37,7 @@ GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choice
 GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",
           .help = "number of points of the lamp with planar soft; where frames follow each other, 16 more with each frame in which nothing moves", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_points))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "auto",
-          .help = "number of samples of disk, poisson, pcss (auto: 16) and cone (auto: 12; 8 to 16)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.taps))
+          .help = "number of samples of disk, poisson, white, pcss (auto: 16) and cone (auto: 12; 8 to 16)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.taps))
 GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
           .help = "do not rotate the sample pattern per pixel (banding instead of noise)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps_fixed))
 GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",
@@ -49,7 +49,7 @@ GN_OPTION(.name = "shadow-specular", .section = "render", .kind = GN_KIND_EV, .m
 GN_OPTION(.name = "bias", .section = "render", .kind = GN_KIND_EV, .max = 100, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
           .help = "bias of shadow maps: 0 shows acne, large ones detach shadows from what casts them", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.bias_texels))
 GN_OPTION(.name = "filter-radius", .section = "render", .kind = GN_KIND_EV, .min = 1, .max = 32, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
-          .help = "radius of the filter of disk and poisson (3 by itself), of pcf (1.5; at most 2) and of the blur of vsm, evsm and msm (1.5 to 4.5, by the light's size)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.filter_radius_px))
+          .help = "radius of the filter of disk, poisson and white (3 by itself), of pcf (1.5; at most 2) and of the blur of vsm, evsm and msm (1.5 to 4.5, by the light's size)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.filter_radius_px))
 GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .choices = slide_aspects, .value = "SHAPE", .fallback = "square",
           .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_as_picture))
 GN_OPTION(.name = "slide-far", .section = "render", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",

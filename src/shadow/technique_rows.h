@@ -1,8 +1,8 @@
 /* The table of shadow techniques: a row each, of GN_TECHNIQUE_NAME and its struct gn_technique_row.
  * One row and its GLSL file add a technique. Includers define ROW; technique.h makes the
  * enumerators. */
-ROW(NONE, .name = "none", .rank = 18, .what = "no shadows")
-ROW(HARD, .name = "hard", .rank = 16, .file = "shadow/hard.glsl", .reads_distance = true,
+ROW(NONE, .name = "none", .rank = 19, .what = "no shadows")
+ROW(HARD, .name = "hard", .rank = 17, .file = "shadow/hard.glsl", .reads_distance = true,
     .radius_texels = 1, .bias_texels = 0.6f, .what = "one comparison", .source = "Williams 1978")
 ROW(PCF, .name = "pcf", .rank = 1, .file = "shadow/pcf.glsl", .compares_linear = true,
     .one_code = true, .filter_radius_px = 1.5f, .filter_most = 2.0f, .radius_texels = 2,
@@ -33,6 +33,10 @@ ROW(POISSON, .name = "poisson", .rank = 9, .file = "shadow/poisson.glsl", .compa
     .reads_distance = true, .taps = GN_TAPS_POISSON, .filter_radius_px = 3.0f, .filter_most = 32.0f,
     .radius_texels = 4, .bias_texels = 0.7f,
     .what = "16 taps over a Poisson disk, turned from pixel to pixel", .source = "Bridson 2007")
+ROW(WHITE, .name = "white", .rank = 16, .file = "shadow/white.glsl", .compares_linear = true,
+    .reads_distance = true, .taps = GN_TAPS_DISK, .filter_radius_px = 3.0f, .filter_most = 32.0f,
+    .radius_texels = 4, .bias_texels = 0.7f,
+    .what = "16 random taps over a disk, others in each pixel", .source = "Cook 1986")
 ROW(PCSS, .name = "pcss", .rank = 3, .file = "shadow/pcss.glsl", .searches = true,
     .reads_distance = true, .soft = true, .taps = GN_TAPS_DISK, .radius_texels = 2,
     .bias_texels = 0.7f, .what = "finds the blockers, then filters as wide as their penumbra is",
@@ -67,6 +71,6 @@ ROW(SMSM, .name = "smsm", .rank = 4, .file = "shadow/smsm.glsl", .soft = true,
     .filter = GN_FILTER_TABLE, .moments = "moments/smsm.glsl",
     .stores = {GN_MOMENTS_TABLE_RGBA32UI}, .map_px = 512, .radius_texels = 2, .bias_texels = 0.7f,
     .what = "the same from four moments", .source = "Peters et al. 2017")
-ROW(PLANAR, .name = "planar", .rank = 17, .file = "shadow/planar.glsl", .on_plane = true,
+ROW(PLANAR, .name = "planar", .rank = 18, .file = "shadow/planar.glsl", .on_plane = true,
     .radius_texels = 2, .what = "casters flattened on the scene's plane, nowhere else",
     .source = "Blinn 1988")

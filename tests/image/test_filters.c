@@ -83,6 +83,73 @@ static void test_a_box_is_a_straight_ramp(void **state) {
     help_stage_close(&stage);
 }
 
+/* Beside an edge, of pixels between .1 and .9 as the mean of their column is: how far they are from
+ * that, root mean square; how far a pixel tells what the next one is, 0 to 1; how far the columns
+ * are from those of another picture. */
+struct noise {
+    double rms, correlation, off;
+};
+static struct noise noise_of(const float *aov, const float *other) {
+    struct noise noise = {0};
+    double squares = 0, products = 0, before[HEIGHT_PX] = {0};
+    int count = 0;
+    for (int x = 0; x < WIDTH_PX; x++) {
+        double mean = 0, mean_other = 0;
+        for (int y = 0; y < HEIGHT_PX; y++) {
+            mean += (double)aov[4 * (y * WIDTH_PX + x)] / HEIGHT_PX;
+            mean_other += (double)other[4 * (y * WIDTH_PX + x)] / HEIGHT_PX;
+        }
+        if (mean < .1 || mean > .9) continue;
+        for (int y = 0; y < HEIGHT_PX; y++) {
+            const double off = (double)aov[4 * (y * WIDTH_PX + x)] - mean;
+            squares += off * off;
+            products += off * before[y];
+            before[y] = off;
+        }
+        noise.off += fabs(mean - mean_other);
+        count++;
+    }
+    if (count <= 50) fail_msg("%d columns of a penumbra", count);
+    noise.rms = sqrt(squares / (count * HEIGHT_PX));
+    noise.correlation = squares > 0 ? products / squares : 1;
+    noise.off /= count;
+    return noise;
+}
+
+/* Random taps have the disk's mean; what a pixel is off tells nothing about the next one, and is
+ * that of 16 independent taps. */
+static void test_white_noise_is_white(void **state) {
+    (void)state;
+    static float white[4 * PIXELS], disk[4 * PIXELS], fixed[4 * PIXELS];
+    struct help_stage stage;
+    struct gn_err err = {0};
+    float *const pictures[] = {white, disk, fixed};
+    help_stage_open(&stage, make_edge, "egl", NULL, NULL);
+    for (int i = 0; i < 3; i++) {
+        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
+                                           .height_px = HEIGHT_PX,
+                                           .shadow.technique_given = true,
+                                           .shadow.technique =
+                                               i == 1 ? GN_TECHNIQUE_DISK : GN_TECHNIQUE_WHITE,
+                                           .shadow.encoding = GN_ENCODING_AUTO,
+                                           .shadow.map_px = 24,
+                                           .shadow.taps_fixed = i == 2,
+                                           .debug.aov = GN_AOV_VISIBILITY};
+        help_stage_draw(&stage, &opts, NULL);
+        if (!gn_gl_read_f32(stage.gl, pictures[i], &err)) fail_msg("%s", err.text);
+    }
+    help_stage_close(&stage);
+    const struct noise of_white = noise_of(white, disk), of_disk = noise_of(disk, white);
+    printf("white: noise %.3f, correlation %.3f, columns off by %.3f; disk: noise %.3f, "
+           "correlation %.3f\n",
+           of_white.rms, of_white.correlation, of_white.off, of_disk.rms, of_disk.correlation);
+    assert_true(of_white.rms > .08 && of_white.rms < .125);
+    assert_true(of_disk.rms < .75 * of_white.rms);
+    assert_true(fabs(of_white.correlation) < .05);
+    assert_true(of_white.off < .03);
+    assert_true(noise_of(fixed, disk).rms < .001); /* the same in every pixel */
+}
+
 /* From visibility .1 to .9, texels: the mean over maps of several sizes, whose mipmaps lie
  * otherwise beside the edge. */
 static double width_of_vsm(struct help_stage *stage, enum gn_moments moments, int *filters) {
@@ -308,6 +375,7 @@ static void test_tiles_have_no_mipmaps(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_box_is_a_straight_ramp),
+        cmocka_unit_test(test_white_noise_is_white),
         cmocka_unit_test(test_mipmaps_are_as_wide_as_the_blur),
         cmocka_unit_test(test_them_against_truth),
         cmocka_unit_test(test_sixteen_bits_are_sixteen),

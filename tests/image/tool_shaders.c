@@ -199,6 +199,7 @@ int main(int argc, char **argv) {
         {"disk", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "r16f")},
         {"disk-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "depth")},
         {"poisson", lit(FULL, GN_LIGHT_DIRECTIONAL, "poisson", "r16f")},
+        {"white", lit(FULL, GN_LIGHT_DIRECTIONAL, "white", "r16f")},
         {"pcss", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "r16f")},
         {"pcss-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "depth")},
         {"pcss-spot", lit(FULL, GN_LIGHT_SPOT, "pcss", "r16f")},
