@@ -52,6 +52,12 @@ LESSON(.name = "front-faces", .title = "Front-face culling is no cure", .scene =
        .steps = {FAULT(DARKENING, "both sides, no bias", "cast_faces = both\nbias = 0"),
                  FAULT(LEAK, "front faces culled, no bias", "cast_faces = back\nbias = 0"),
                  CURE("both sides, automatic bias", "cast_faces = both")})
+LESSON(.name = "second-depth", .title = "Second depth and midpoint maps", .scene = "thin", .set = "map = 384\nshadow = hard",
+       .teaches = "Of a closed thing a map may hold the far sides (second depth): lit faces then need no bias. But a shadow begins right at a far side, so the least bias opens a gap at its foot. The middle between near and far sides (midpoint) has half the thickness to both. An automatic bias of the near sides cures as much, and of open things, too.",
+       .steps = {FAULT(DARKENING, "first depth, no bias", "cast_faces = both\nbias = 0"),
+                 FAULT(GAP, "second depth, 1 texel of bias", "cast_faces = back\nbias = 1"),
+                 CURE("midpoint, 1 texel of bias", "cast_faces = middle\nbias = 1"),
+                 CURE("first depth, automatic bias", "cast_faces = both")})
 
 /* filters */
 LESSON(.name = "pcf", .title = "Percentage closer filtering: wider filters, softer edges", .scene = "lattice", .set = "map = 256",
@@ -59,6 +65,7 @@ LESSON(.name = "pcf", .title = "Percentage closer filtering: wider filters, soft
        .steps = {FAULT(PENUMBRA, "one comparison (hard)", "shadow = hard"),
                  CURE("2x2 texels (pcf2)", "shadow = pcf2"),
                  CURE("3x3 texels (pcf)", "shadow = pcf"),
+                 CURE("3x3 with equal weights (box3)", "shadow = box3"),
                  CURE("1 2 1, squared (pcf3)", "shadow = pcf3"),
                  CURE("1 3 4 3 1, squared (pcf5)", "shadow = pcf5")})
 LESSON(.name = "soft", .title = "Penumbrae grow with the distance from the caster", .scene = "lean",
