@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/shot.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
 
@@ -72,12 +73,19 @@ static bool go_together(int technique, int encoding) {
     return on_plane == (encoding >= GN_ENCODING_MASK);
 }
 
+/* Those that are there for comparison, in the quick form: each encoding with one type of light. */
+static bool is_left_out(int technique, int encoding, int type) {
+    const bool compares = technique == GN_TECHNIQUE_BOX3 || technique == GN_TECHNIQUE_BOX5 ||
+                          technique == GN_TECHNIQUE_WHITE;
+    return compares && !gn_shot_full() && (technique + encoding + type) % 3 != 0;
+}
+
 static void test_techniques(void **state) {
     (void)state;
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
         for (int e = 0; e < GN_ENCODING_COUNT; e++)
             for (int type = GN_LIGHT_DIRECTIONAL; type < GN_LIGHT_TYPE_COUNT; type++) {
-                if (!go_together(t, e)) continue;
+                if (!go_together(t, e) || is_left_out(t, e, type)) continue;
                 struct gn_program_key key = key_of(GN_PROGRAM_LIT);
                 add_light(&key, type, t, e);
                 compiles(&key);
