@@ -107,6 +107,26 @@ static void test_which_faces_cast(void **state) {
     assert_true(gn_mask_gap(&scores[4]) <= 1.01 * gn_mask_gap(&scores[0]));
 }
 
+/* Without a bias surfaces shadow themselves, but not where the map has their middle or far side. */
+static void test_a_middle_needs_no_bias(void **state) {
+    (void)state;
+    static const int words[] = {1 + GN_CAST_BOTH, 1 + GN_CAST_BACK, 1 + GN_CAST_MIDDLE};
+    static const char *const names[] = {"both", "back", "middle"};
+    struct gn_mask_score scores[3];
+    for (int i = 0; i < 3; i++) {
+        struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
+        opts.shadow.faces = words[i];
+        opts.shadow.bias_given = true;
+        draw(&opts);
+        gn_mask_compare(&truth.mask, aov, 4, &scores[i]);
+        printf("no bias, faces %s: acne %.4f %%, gap %.2f %%, wrong %.3f %%\n", names[i],
+               gn_mask_acne(&scores[i]), gn_mask_gap(&scores[i]), gn_mask_wrong(&scores[i]));
+    }
+    assert_true(gn_mask_wrong(&scores[0]) > 2);
+    assert_true(gn_mask_wrong(&scores[2]) < .2);
+    assert_true(gn_mask_gap(&scores[2]) <= gn_mask_gap(&scores[1]));
+}
+
 /* Over 850 m a step of 16 bits is as large as a texel of the first cascade: the bias covers it, at
  * the price of light at contacts. */
 static void test_sixteen_bits(void **state) {
@@ -214,6 +234,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_more_cascades_are_nearer_to_truth),
         cmocka_unit_test(test_which_faces_cast),
+        cmocka_unit_test(test_a_middle_needs_no_bias),
         cmocka_unit_test(test_sixteen_bits),
         cmocka_unit_test(test_a_larger_light_has_wider_penumbrae),
         cmocka_unit_test(test_highlights_stay_in_shadow_as_told),
