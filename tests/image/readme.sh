@@ -20,7 +20,7 @@ short() {
     echo '| technique | map | darkening | leak | wrong | penumbra | time | Pi 4 | MB |'
     echo '|---|---|---|---|---|---|---|---|---|'
     awk -F ' *[|] *' '
-        BEGIN { n = split("hard:r16f pcf:depth pcf3:depth pcss:r16f vsm:rg32ui evsm:rgba32f-share msm:rgba16ui vssm:rgba32ui smsm:rgba32ui planar:stencil", row, " ")
+        BEGIN { n = split("hard:r16f pcf:depth pcf3:depth pcss:r16f cone:rg16f vsm:rg32ui evsm:rgba32f-share msm:rgba16ui smsm:rgba32ui planar:stencil", row, " ")
                 for (i = 1; i <= n; i++) wanted[row[i]] = 1 }
         { name = $2; gsub(/`/, "", name) }
         $3 == "sun" && (name ":" $4) in wanted {

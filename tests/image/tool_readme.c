@@ -41,6 +41,7 @@ static bool is_stencil(const struct gn_table_row *row) {
 static enum gn_encoding encoding_of(const struct gn_table_row *row) {
     enum gn_encoding encoding = GN_ENCODING_MASK;
     if (is_stencil(row)) return GN_ENCODING_STENCIL;
+    if (technique_of(row)->reads_both) return GN_ENCODING_DEPTH;
     if (technique_of(row)->filter) return GN_ENCODING_R32UI;
     if (!technique_of(row)->on_plane) gn_encoding_find(row->format, &encoding, NULL);
     return encoding;
@@ -207,8 +208,9 @@ static void print_instructions(const char *budgets, const struct gn_table_row *r
 static double megabytes_of(const struct gn_table_row *row, int light) {
     enum gn_encoding encoding = encoding_of(row);
     double tiles = light == 2 && encoding != GN_ENCODING_MASK ? 6 : 1;
-    const unsigned bytes = gn_encodings[encoding].texel_bytes +
-                           2 * gn_moments[moments_of(row)].texel_bytes; /* one on the way */
+    unsigned filtered = 2 * gn_moments[moments_of(row)].texel_bytes; /* one on the way */
+    if (gn_filters[technique_of(row)->filter].halves) filtered /= 4;
+    const unsigned bytes = gn_encodings[encoding].texel_bytes + filtered;
     return bytes * tiles * 1024 * 1024 / 1e6;
 }
 
