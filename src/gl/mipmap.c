@@ -2,8 +2,8 @@
  * larger than the GPU accepts, and for all levels with a software GPU: llvmpipe takes thirty times
  * as long, most of it to compile. No GL. */
 #include <math.h>
+#include <stdlib.h>
 
-#include "core/arena.h"
 #include "gl/private.h"
 
 enum { STEPS = sizeof((struct gn_gl_curve *)0)->encode - 1 };
@@ -51,7 +51,8 @@ void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_ima
 
 uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb) {
     struct gn_image half = gn_gl_image_half(image);
-    uint8_t *out = gn_xalloc((size_t)half.width_px * half.height_px, 4);
+    uint8_t *out = malloc(4ul * half.width_px * half.height_px);
+    if (!out) return NULL;
     gn_gl_image_halve_rows(curve, image, 0, half.height_px, srgb, out);
     half.rgba = out;
     *image = half;

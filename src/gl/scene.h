@@ -10,7 +10,8 @@ struct gn_gl_curve {   /* sRGB by table (mipmap.c) */
     uint8_t encode[8192];
 };
 void gn_gl_curve_init(struct gn_gl_curve *curve);
-/* Makes *image half as large, in new memory that is also returned: the caller frees it. */
+/* Makes *image half as large, in new memory that is also returned: the caller frees it. NULL: there
+ * is none. */
 uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb);
 /* The same row by row: the size of the half, then some of its rows. */
 struct gn_image gn_gl_image_half(const struct gn_image *image);
@@ -46,6 +47,7 @@ struct gn_gl_upload {
     uint32_t first; /* vertex, index or use of a texture that comes next */
     struct gn_gl_curve *curve;
     struct gn_gl_picture picture;
+    bool no_memory; /* for a picture's smaller levels */
 };
 struct gn_gl_scene {
     const struct gn_scene *scene;

@@ -48,11 +48,11 @@ static size_t send_rows(struct gn_gl *gl, size_t bytes) {
     p->row = 0;
     if (++p->level < p->levels) {
         p->half = gn_gl_image_half(&p->image);
-        p->half_owned = gn_xalloc((size_t)p->half.width_px * p->half.height_px, 4);
+        p->half_owned = malloc(4ul * p->half.width_px * p->half.height_px);
         p->half.rgba = p->half_owned;
-    } else {
-        close_picture(p);
+        gl->scene.upload.no_memory = !p->half_owned;
     }
+    if (!p->half_owned) close_picture(p);
     return count * row;
 }
 
@@ -127,6 +127,11 @@ static bool open_next_picture(struct gn_gl *gl) {
         uint8_t *old = p->owned;
         p->owned = gn_gl_image_halve(s->upload.curve, &p->image, srgb);
         free(old);
+        if (!p->owned) {
+            s->upload.no_memory = true;
+            close_picture(p);
+            return false;
+        }
     }
     if (p->owned)
         gn_warn(gl->warnings,
@@ -158,7 +163,7 @@ bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
             gn_gl_curve_init(s->upload.curve);
         }
     }
-    while (sent < bytes) {
+    while (sent < bytes && !s->upload.no_memory) {
         int32_t texture = 0;
         bool srgb = false;
         if (!p->open && !open_next_picture(gl)) break;

@@ -170,7 +170,10 @@ bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err 
         u->first = 0;
     } while (bytes == SIZE_MAX && u->phase < GN_GL_UPLOAD_DONE);
     *done = u->phase == GN_GL_UPLOAD_DONE;
-    if (gn_gl_error_check(gl, "uploading the scene", err)) return true;
+    if (u->no_memory)
+        gn_fail(err, "uploading the scene: out of memory for its pictures");
+    else if (gn_gl_error_check(gl, "uploading the scene", err))
+        return true;
     gn_gl_scene_finish(gl);
     return false;
 }
