@@ -283,8 +283,9 @@ static double most_across(uint32_t camera, const float *picture, int width, int 
 }
 
 /* Pixels of 50 um, a 700th of a texel: between two of them taps leave a texel one by one, unless an
- * edge of tiles makes several leave at once. The strips of before, in pieces: all, or every sixth.
- */
+ * edge of tiles makes several leave at once. Where a tap of a blocker search leaves one, the
+ * filter's width changes, too, and may take another tap along. The strips of before, in pieces:
+ * all, or every sixth. */
 static void test_across_an_edge_of_tiles_one_tap_changes(void **state) {
     (void)state;
     enum { REACH = 9 };
@@ -319,7 +320,9 @@ static void test_across_an_edge_of_tiles_one_tap_changes(void **state) {
                gn_techniques[s->technique].name, gn_encodings[s->encoding].name, s->pairs, s->step,
                1 / s->fetches);
         assert_true(s->pairs > 100000);
-        assert_true(s->step <= 1 / s->fetches + 1.0 / 1400);
+        const bool searches =
+            gn_techniques[s->technique].searches && gn_techniques[s->technique].soft;
+        assert_true(s->step <= (searches ? 2 : 1) / s->fetches + 1.0 / 1400);
     }
 }
 
