@@ -301,6 +301,9 @@ struct gn_limit_row gn_table_limit(const struct gn_table_row *row, enum gn_fault
      * shadow could take */
     if (is_coarse(row) && (fault == GN_FAULT_ACNE || fault == GN_FAULT_WRONG)) return no_limit;
     if (fault == GN_FAULT_LEAK && !small && is_bleeding(row)) return (struct gn_limit_row){.08, .3};
+    /* beside such places a filter that needs a wide bias shows some of the shadow lit */
+    if (is_coarse(row) && fault == GN_FAULT_LEAK)
+        return small ? (struct gn_limit_row){.06, INFINITY} : (struct gn_limit_row){.03, .3};
     if (fault <= GN_FAULT_LEAK)
         return small ? (struct gn_limit_row){.05, INFINITY} : (struct gn_limit_row){.02, .3};
     if (small || !(is_hard(row) || is_planar(row))) return no_limit;
