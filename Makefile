@@ -17,7 +17,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DELETE_ON_ERROR:
 .SUFFIXES:
 CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
-.PHONY: all no-import tests sanitized run check $(CHECKS) gpus accept full truth benchmark benchmark-scenes gallery contact-sheet lessons readme options-page deps \
+.PHONY: all no-import tests sanitized run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
 help:
@@ -162,8 +162,8 @@ SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
 LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plates thin far position form unseen lights)
 SELFTEST := $(foreach s,box ball fence lattice tilt stack lamp,$(addprefix $(O)/selftest/$s,.glb .truth))
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
-           $(SELFTEST) $(LESSONS)
-EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth,$(suffix $f)),$f))
+           $(SELFTEST) $(LESSONS) $(O)/studio.env
+EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env,$(suffix $f)),$f))
 
 # not out of a library: another one's dlclose would be found first
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
@@ -253,6 +253,8 @@ $(O)/host/man: board/host/man.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B
 $(O)/host/man: HOST_LIBS = $(shell pkg-config --cflags libdrm)
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
 $(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)
+$(O)/host/make_studio: $(wildcard src/environment/*.c) $(addprefix src/,image/hdr_read.c core/arena.c core/err.c core/hash.c core/text.c) \
+    $(wildcard src/environment/*.h)
 $(O)/host/embed $(O)/host/man $(HOST_ASSETS):
 	@mkdir -p $(@D) && echo "host $@"
 	$(Q)$(HOST)
@@ -261,6 +263,8 @@ assets/sundial.glb: $(O)/host/make_sundial
 assets/bench/%.glb: $(O)/host/make_bench
 	@mkdir -p $(@D)
 	$(Q)$< $* $@.tmp && mv $@.tmp $@
+$(O)/studio.env: $(O)/host/make_studio
+	$(Q)$< $@.tmp && mv $@.tmp $@
 assets/lessons/%.glb: $(O)/host/make_lessons
 	@mkdir -p $(@D)
 	$(Q)$< $* $@.tmp && mv $@.tmp $@
@@ -296,11 +300,13 @@ BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/tool_compare
 check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(sort $(wildcard tests/board/*.guest)),tests/board/smoke.guest)
 	$(if $(GN_FULL),+$(SUB) check-board-arm64)
-# Skipped, and then not built, where the packages to build against cannot be had.
-check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
+# Not built where the packages to build against cannot be had: the tests say so, and skip.
+ARM64_B := $(O)/aarch64-linux-gnu-$(CONFIG)
+board-arm64:
 	+@root=$$(tests/board/sysroot.sh arm64) || exit 0; $(SUB) CROSS=aarch64-linux-gnu SYSROOT=$$root \
-	    $(addprefix $(O)/aarch64-linux-gnu-$(CONFIG)/,$(filter-out %/tool_compare,$(BOARD_NEEDS)))
-	@ARCH=arm64 HOST_BUILD=$(B) tests/run.sh BUILD=$(O)/aarch64-linux-gnu-$(CONFIG) \
+	    $(addprefix $(ARM64_B)/,$(filter-out %/tool_compare,$(BOARD_NEEDS)))
+check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST) board-arm64
+	@ARCH=arm64 HOST_BUILD=$(B) tests/run.sh BUILD=$(ARM64_B) \
 	    $(if $(GN_FULL),$(addprefix tests/board/,lab.guest picture.guest monitor.guest card.guest)) tests/board/smoke.guest
 # For GPUs that are not here: debug, for its assertions; not built where Debian's packages cannot be
 # had: then the test says so.
@@ -314,32 +320,39 @@ check-gpus: gpus
 # Built for Debian 13 with this machine's compiler, and run on its libraries: here, and in a virtual machine.
 GPIOD2  := $(O)/$(shell $(CC) -dumpmachine)-$(CONFIG)
 GPIOD2_TESTS := $(addprefix $(GPIOD2)/tests/,test_gpio test_lines test_input test_gesture test_replay test_doctor_input)
-check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
+gpiod2:
 	+@root=$$(SUITE=trixie tests/board/sysroot.sh) || exit 0; $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root \
 	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(addprefix $(GPIOD2)/tests/,firstflip.so keyboard)
+check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST) gpiod2
 	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
 # What check leaves out: the long forms; what tests/timeouts leaves to accept, and the sanitizers
 # over the other kinds, in their quick forms; machines, and processors and GPUs that are not here.
 # What takes longest of these is left to full: under sanitizers the tests of pictures that tests/timeouts
-# names (SLOW), the long form of LONGEST, and four of the seven GPUs.
+# names (SLOW), the long forms of LONGEST and of machines (more of the same: presses, replugs, frames, seconds
+# of rest), figures of bench that mean something, and four of the seven GPUs. All run at once, at the end:
+# machines wait a lot, and other tests have the processors then.
 PICTURES := $(filter tests/image/%,$(PROG_C))
 SLOW    := $(filter $(shell awk '$$2 ~ /^[0-9]/ { print "tests/image/" $$1 ".c" }' tests/timeouts),$(PICTURES))
-LONGEST := $(filter %/test_many_lights.c %/test_gesture_traces.c %/test_bombs.c %/test_storm.c,$(PROG_C))
+LONGEST := $(filter %/test_many_lights.c %/test_modes.c %/test_gesture_traces.c %/test_bombs.c %/test_storm.c,$(PROG_C))
 LONG     = $(shell grep -lE 'gn_shot_full|GN_FULL' $(1))
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
+	+$(SUB) board-arm64
+	+$(SUB) gpiod2
+	+$(SUB) gpus
 	+$(SUB) lint
 	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(LONGEST))) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(SLOW),$(PICTURES))) tests/check_hostile.sh \
 	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan,$(PROG_C))) \
 	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(LONGEST)),$(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) \
 	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
-	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) $(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh)) \
-	    $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest)))
-	+$(SUB) check-board-arm64
-	+$(SUB) check-gpiod2
-	+$(SUB) GPUS=pi4,g610,a618 check-gpus
+	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) \
+	    $(filter-out %/accept_bench.sh,$(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))) \
+	    GN_FULL= tests/image/accept_bench.sh $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest))) \
+	    HOST_BUILD=$(O)/release BUILD=$(ARM64_B) ARCH=arm64 tests/board/smoke.guest ARCH= \
+	    BUILD=$(GPIOD2) SUITE=trixie tests/board/units.sh tests/board/buttons.guest SUITE= HOST_BUILD= \
+	    BUILD=$(GPUS_B) GPUS=pi4,g610,a618 tests/gpus/gpus.sh
 full:
 	+$(SUB) WERROR=1 CONFIG=release all tests
 	+$(SUB) WERROR=1 CONFIG=asan tests
@@ -347,6 +360,7 @@ full:
 	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(SLOW)) \
 	    GN_FULL=1 $(call programs,$(O)/asan,$(filter tests/kms/%,$(PROG_C))) GN_FULL= \
 	    BUILD=$(O)/release GN_FULL=1 $(call programs,$(O)/release,$(LONGEST))
+	@tests/run.sh BUILD=$(O)/release GN_FULL=1 tests/image/accept_bench.sh
 	+$(SUB) GN_FULL=1 check-angle
 	+$(SUB) GN_FULL=1 check-board
 	+$(SUB) GN_FULL=1 check-gpiod2

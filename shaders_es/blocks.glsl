@@ -19,7 +19,7 @@
 #define PASS_EYE 4        /* xyz: camera position, world space, or direction to it if w = 0; w: 1 perspective, 0 orthographic */
 #define PASS_CODE 4       /* shadow passes: code = d * w + PASS_CODE_ADD.x; d: depth 0..1, or distance from xyz in metres */
 #define PASS_CODE_ADD 5   /* shadow passes: x; y: code of the far end; z: depth maps of spots and points: code at infinity */
-#define PASS_SKY 5        /* rgb: radiance of the upper hemisphere, after exposure */
+#define PASS_SKY 5        /* rgb: radiance of the upper hemisphere, after exposure; w: factor on the environment's radiance */
 #define PASS_GROUND 6     /* rgb: radiance of the lower hemisphere, after exposure */
 #define PASS_EXPOSURE 7   /* x: factor on emitted radiance; yzw: camera position, world space */
 #define PASS_LIGHTS 8     /* GN_LIGHTS_MAX x LIGHT_SIZE */
@@ -46,7 +46,7 @@
 #define CODE_OFFSET AT_X
 #define CODE_FAR_END AT_Y /* code of the far end: the clear value of the map */
 #define CODE_REACH AT_Z /* tiles, SAT: largest read offset from a lookup, texels */
-#define CODE_SHARED AT_W /* point: 1 / tangent over which adjacent tiles are blended */
+#define CODE_SHARED AT_W /* point: 1 - tangent over which adjacent tiles are blended */
 #define CODE_HELD AT_W /* cascades: largest lookup offset from the centre of a tile, texels */
 #define SHADOW_PENUMBRA 8 /* width of penumbrae: lib/shadow_place.glsl */
 #define PENUMBRA_RADIUS AT_X /* of the emitter, texels per unit of penumbra depth; cascades: metres */
@@ -57,20 +57,26 @@
 #define SHADOW_SLOPE 9    /* slope of a receiver's plane, depth codes (lib/shadow_place.glsl): two vec4, for u and v: xyz: dot with its
                              normal; point: xy of the first: factors on its normal in the tile's frame */
 #define SLOPE_FILTER AT_W /* of the first: radius of the filter, texels; 0: the technique's */
+#define SLOPE_HORIZON AT_W /* of the second: HORIZON_SLOPE / the lamp's radius; directional: / its tangent */
+#define HORIZON_SLOPE 0.59f /* 0.5 + this * height in radii, within 0.04 of the share of a disk that is above a line */
 #define PASS_SLIDES 78    /* GN_SLIDES_MAX x SLIDE_SIZE; a pass without slides or cascades ends here */
 #define SLIDE_SIZE 4
 #define SLIDE_U 0         /* dot with (p, 1), world space: u times w; u is 0..1 over the slide from its left edge */
 #define SLIDE_V 1         /* dot with (p, 1): v times w; v is 0..1 from the top edge */
 #define SLIDE_W 2         /* dot with (p, 1): w, the depth along the axis of the light, metres */
 #define SLIDE_PLACE 3     /* xy: width and height in texels; z: depth of the slide (> 0); nearer points count as outside of it; w: depth of its far plane, 0: none */
-#define PASS_CASCADES 94  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades ends here */
+#define PASS_CASCADES 94  /* GN_SHADOWS_MAX x CASCADES_SIZE, as PASS_SHADOWS; a pass without cascades or environment ends here */
 #define CASCADES_SIZE 6   /* first one vec4 per cascade: xy: axis of the light, texels from the centre of the tile */
 #define CASCADE_TEXEL AT_Z /* size of a texel, metres */
 #define CASCADE_NEAREST AT_W /* penumbra depth of the nearest caster of the cascade */
 #define CASCADES_ZONES 4  /* per cascade but the last: 1 / width of the zone that fades it into the next; 0: no next cascade */
 #define CASCADES_SPANS 5  /* per cascade: range of penumbra depth that its moments cover, from the nearest caster */
 #define CASCADE_FADE 0.1  /* width of the zone, which ends at the split, as a fraction of the distance of the split */
-#define PASS_SIZE 118
+#define PASS_ENVIRONMENT 118 /* 9: xyz: coefficients of diffuse radiance (lib/environment.glsl); then x, y: cosine and sine of the
+                                turn; a pass without an environment ends before */
+#define ENVIRONMENT_TURN 9
+#define ENVIRONMENT_SIZE 10
+#define PASS_SIZE 128
 /* Filters of maps */
 #define FILTER_RECT 0     /* xy: lower left texel of the tile; zw: upper right texel, inclusive */
 #define FILTER_BLUR 1     /* x: half of the box width, texels; y: offset of the last texel from the centre; z: 1 / width */
@@ -99,6 +105,9 @@
 #define PANEL_FRAME 2     /* rgb: linear; w: width, pixels */
 #define PANEL_PX 3        /* xy: width and height, pixels; zw: cosine and sine of the output's clockwise rotation */
 #define PANEL_SIZE 4
+/* The last pass */
+#define ENCODE_BACKGROUND 0 /* rgb: linear */
+#define ENCODE_SIZE 1
 /* Captions */
 #define CAPTION_PX 0      /* xy: size of a pixel in NDC (-1..1); zw: cosine and sine of the output's clockwise rotation */
 #define CAPTION_SIZE 1

@@ -2,6 +2,7 @@
 #include "lib/pass.glsl"
 #include "lib/vertex.glsl"
 #include "lib/shadow_point.glsl"
+#include "lib/environment.glsl"
 
 invariant gl_Position; // additive passes draw the same surfaces again and need the same depth (LEQUAL)
 
@@ -17,6 +18,10 @@ out float v_spread;
 #endif
 #define DECLARE_UV(v_uv, slot, second) out vec2 v_uv;
 EACH_TEXTURE(DECLARE_UV)
+#ifdef WITH_NORMAL_TEXTURE
+out vec3 v_tangent;
+flat out float v_bitangent_sign;
+#endif
 flat out vec4 v_surface;
 flat out vec4 v_emissive;
 #ifdef WITH_FLAT_CONSTANTS
@@ -25,12 +30,18 @@ flat out vec4 v_constant[7]; // lib/flat_constants.glsl
 #ifdef WITH_SHADOWS
 out vec3 v_shadow[SHADOW_COUNT];
 #endif
+#ifdef WITH_IRRADIANCE // lib/environment.glsl
+out vec3 v_irradiance;
+#ifdef WITH_DOUBLE_SIDED
+out vec3 v_irradiance_odd;
+#endif
+#endif
 
 #define PLACE_SHADOW(slot) \
     v_shadow[slot] = SHADOW_LINEAR[slot] \
         ? shadow_point_directional(slot, p, n, u_pass[PASS_LIGHTS + slot * LIGHT_SIZE + LIGHT_PLACE].xyz, \
                                    SHADOW_SPREAD[slot] ? spread : 0.0) \
-        : SHADOW_PROJECTED[slot] ? shadow_point_spot(slot, p, n, SHADOW_SPREAD[slot] ? spread : 0.0) : vec3(0.0);
+        : SHADOW_PROJECTED[slot] ? shadow_point_spot(slot, p, n, spread) : vec3(0.0);
 
 #define SET_UV(v_uv, slot, second) v_uv = slot_uv(slot, second);
 
@@ -40,6 +51,11 @@ void main() {
     gl_Position = pass_matrix(PASS_CLIP) * vec4(p, 1.0);
     v_position = p;
     v_normal = n;
+#ifdef WITH_NORMAL_TEXTURE
+    vec4 tangent = tangent_ws();
+    v_tangent = tangent.xyz;
+    v_bitangent_sign = tangent.w;
+#endif
     float spread = normal_spread();
 #ifdef WITH_SPREAD
     v_spread = spread;
@@ -54,4 +70,13 @@ void main() {
                          u_pass[PASS_SHADOWS + SHADOW_CODE]);
 #endif
     EACH_SHADOWED_LIGHT_VERTEX(PLACE_SHADOW)
+#ifdef WITH_IRRADIANCE
+    vec3 odd;
+    environment_diffuse(n, v_irradiance, odd);
+#ifdef WITH_DOUBLE_SIDED
+    v_irradiance_odd = odd;
+#else
+    v_irradiance += odd;
+#endif
+#endif
 }

@@ -75,6 +75,25 @@ grep -q "'stone'" "$folder/maps" || complain 'the sundial casts nothing'
 ! grep -qE "'(court|lawn)'" "$folder/maps" || complain 'the ground is drawn into a map'
 
 # two pictures
+# samples by default: in a picture to look at, not in one to measure, nor where they take too much memory
+# samples N FILE ARGUMENT..
+samples() {
+    wanted=$1 file=$2
+    shift 2
+    "$gnomon" render --plan "$@" -o "$folder/$file" > "$folder/out" 2> "$folder/err" || complain "render $*"
+    grep -q "^plan .*, msaa $wanted," "$folder/out" || complain "samples of $file $*: $(head -1 "$folder/out")"
+    [ ! -s "$folder/err" ] || complain "render $*: $(cat "$folder/err")"
+}
+samples 4 a.png --size 32x18
+samples 4 a.png --size 32x18 --msaa auto
+samples 2 a.png --size 32x18 --msaa 2
+samples 0 a.png --size 32x18 --msaa 0
+samples 0 a.pfm --size 32x18
+samples 0 a.png --size 32x18 --output linear
+samples 0 a.png --size 32x18 --aov normal
+samples 0 a.png --size 32x18 --without msaa4
+samples 0 a.png --size 32x18 --shadow truth --samples 1
+samples 0 a.png --size 4200x2100 --shadow none
 expect 0 '' render --size 32x24 --shadow none -o "$folder/a.png"
 expect 0 '' render --size 32x24 --shadow pcf -o "$folder/b.png"
 expect 0 '' compare "$folder/a.png" "$folder/a.png"

@@ -74,7 +74,7 @@ slide=$(base64 -w 0 < "$folder/slide.png")
 # a square in the plane of x and z: four positions, six indices
 square=$(printf '\000\000\200\277\000\000\000\000\000\000\200\077\000\000\200\077\000\000\000\000\000\000\200\077\000\000\200\077\000\000\000\000\000\000\200\277\000\000\200\277\000\000\000\000\000\000\200\277\000\000\001\000\002\000\000\000\002\000\003\000' | base64 -w 0)
 
-# scene ON_LIGHT ON_OBJECT ON_SCENE: a .gltf with a spot over the square, and these members in their extras
+# scene ON_LIGHT ON_OBJECT ON_SCENE ON_MATERIAL: a .gltf with a spot over the square, and these members in their extras
 scene() {
     cat << JSON
 {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1], "extras": {$3}}],
@@ -82,7 +82,8 @@ scene() {
  "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 10, "extras": {$1}}]}},
  "nodes": [{"mesh": 0, "extras": {$2}},
            {"translation": [0, 3, 0], "rotation": [-0.70710678, 0, 0, 0.70710678], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
- "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+ "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+ "materials": [{"extras": {$4}}],
  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [-1, 0, -1], "max": [1, 0, 1]},
                {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"}],
  "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 12}],
@@ -94,9 +95,10 @@ JSON
 # try MEMBER SECTION: inspect's warnings about it
 try() {
     case $2 in
-    Lights | Slides) scene "$1" '' '' ;;
-    Objects) scene '' "$1" '' ;;
-    *) scene '' '' "$1" ;;
+    Lights | Slides) scene "$1" '' '' '' ;;
+    Objects) scene '' "$1" '' '' ;;
+    Materials) scene '' '' '' "$1" ;;
+    *) scene '' '' "$1" '' ;;
     esac > "$folder/key.gltf"
     "$gnomon" inspect "$folder/key.gltf" > "$folder/out" 2>&1 || echo "inspect fails: $(cat "$folder/out")"
     grep -F gnomon_ "$folder/out"

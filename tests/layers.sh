@@ -7,14 +7,15 @@ BEGIN {
     # what a room may include, besides itself; src/main.c may include all
     may["core"] = ""
     may["image"] = "core"
+    may["environment"] = "core image"
     may["scene"] = "core image"
     may["shadow"] = "core scene"
     may["truth"] = "core scene"
-    may["frame"] = "core scene shadow caption"
-    may["gl"] = "core scene shadow frame caption"
+    may["frame"] = "core environment scene shadow caption"
+    may["gl"] = "core environment scene shadow frame caption"
     may["caption"] = may["display"] = may["input"] = may["import"] = "core" # import is a program of its own
     may["options"] = "core scene shadow frame display input"
-    may["stage"] = "core image scene shadow truth frame gl display input caption options"
+    may["stage"] = "core image environment scene shadow truth frame gl display input caption options"
     may["kiosk"] = may["stage"] " stage"
     may["cli"] = may["kiosk"] " kiosk"
     # which rooms may include <KEY..>

@@ -2,7 +2,8 @@
 # run.sh [NAME=VALUE | PROGRAM]..: runs programs and scripts, JOBS (one more than processors, since
 # tests also wait) at a time, and counts. NAME=VALUE goes into the environment of those that follow (BUILD=build/asan).
 # tests/timeouts has the processor seconds that each may take, and which of them run alone, after
-# the others; the longest begin first. A line is printed when a test has ended, and with it the end
+# the others; the longest begin first. Virtual machines (.guest), of two processors each, run beside
+# the others, one for every two processors. A line is printed when a test has ended, and with it the end
 # of its log if it failed. Exit status 77 is a skip, whose last line says why; the tests inside a
 # cmocka program count one by one. STRICT=1 makes a skip a failure. A script that succeeds with a
 # line "not applicable: why" has nothing to test on this kind of machine and is not counted.
@@ -46,7 +47,7 @@ for argument in "$@"; do
     esac
 done
 
-# lines "ALONE LIMIT COUNT PROGRAM", in the order in which they run
+# lines "WHEN LIMIT COUNT PROGRAM", in the order in which they may begin; WHEN is machine, beside or alone
 plan() {
     printf '%s\n' "${programs[@]}" |
         awk -v own_limit="${LIMIT:-}" '
@@ -56,10 +57,11 @@ plan() {
                 sub(/.*\//, "", name)
                 known = limit[name] + 0
                 most = $3 ? 1800 : own_limit ? own_limit : known ? known : 60
-                if (name ~ /[.]guest$/) { alone[name] = 1; most = 3600 } # it has a limit of its own
-                print alone[name] + 0, most, $1, $2, known
+                machine = name ~ /[.]guest$/
+                if (machine) most = 3600 # it has a limit of its own
+                print alone[name] ? "alone" : machine ? "machine" : "beside", most, $1, $2, known
             }' tests/timeouts - |
-        sort -s -k 1,1n -k 5,5nr
+        sort -s -k 1,1r -k 5,5nr
 }
 
 # ---- one test ----------------------------------------------------------------------------------
@@ -130,8 +132,8 @@ run() {
 }
 
 # ---- all of them -------------------------------------------------------------------------------
-passed=0 failed=0 skipped=0 failures='' number=0
-declare -A result_of=()
+passed=0 failed=0 skipped=0 failures='' number=0 machines=0
+declare -A result_of=() machine=()
 
 # finish: waits for one that runs, and prints and counts it
 finish() {
@@ -139,19 +141,40 @@ finish() {
     wait -n -p pid
     cat "${result_of[$pid]}.out" && read -r good bad left why < "${result_of[$pid]}" ||
         { good=0 bad=1 left=0 why="${result_of[$pid]##*/}: run.sh was interrupted"; }
-    unset "result_of[$pid]"
+    machines=$((machines - ${machine[$pid]:-0}))
+    unset "result_of[$pid]" "machine[$pid]"
     passed=$((passed + good)) failed=$((failed + bad)) skipped=$((skipped + left))
     [ -z "$why" ] || failures="$failures"$'\n'"  $why"
 }
 
-while read -r alone limit count program _; do
-    [ "$alone" = 0 ] || jobs=1
-    while [ "${#result_of[@]}" -ge "$jobs" ]; do finish; done
+# start WHEN LIMIT COUNT PROGRAM
+start() {
     number=$((number + 1))
-    run "$limit" "$count" "$program" "$work/$number" &
+    run "$2" "$3" "$4" "$work/$number" &
     result_of[$!]=$work/$number
-done < <([ ${#programs[@]} = 0 ] || plan)
-while [ "${#result_of[@]}" -gt 0 ]; do finish; done
+    [ "$1" != machine ] || { machine[$!]=1 && machines=$((machines + 1)); }
+}
+
+mapfile -t waiting < <([ ${#programs[@]} = 0 ] || plan | grep '^machine ')
+mapfile -t others < <([ ${#programs[@]} = 0 ] || plan | grep -v '^machine ')
+while :; do
+    when=${others[0]:-none} when=${when%% *} running=${#result_of[@]}
+    # the last machines have nothing beside them but another machine
+    most=$((($(nproc) + 1) / 2)) && [ "$when" = beside ] || most=$((2 * most))
+    if [ "${#waiting[@]}" -gt 0 ] && [ "$running" -lt "$jobs" ] && [ "$machines" -lt "$most" ]; then
+        # shellcheck disable=SC2086
+        start ${waiting[0]}
+        waiting=("${waiting[@]:1}")
+    elif [ "$when" = alone ] && [ "$running" = 0 ] || [ "$when" = beside ] && [ "$running" -lt "$jobs" ]; then
+        # shellcheck disable=SC2086
+        start ${others[0]}
+        others=("${others[@]:1}")
+    elif [ "$running" -gt 0 ]; then
+        finish
+    else
+        break
+    fi
+done
 
 [ -z "$failures" ] || echo "failed:$failures"
 [ $((passed + failed)) -gt 0 ] || { echo 'no test ran' && failed=1; }

@@ -54,10 +54,15 @@ output() {
     line $status printed "$name"
 }
 # picture SIZE TYPE ARGUMENT..: a picture and its plan
+look='--msaa 0 --tone none' # pinned: not the defaults; programs before these had a tone draw so
+"$gnomon" help render 2> /dev/null | grep -q -e --tone || look='--msaa 0'
+"$gnomon" help render 2> /dev/null | grep -q -e --floor && look="$look --floor none"
 picture() {
-    size=$1 type=$2
+    size=$1 type=$2 plain=$look
     shift 2
-    output "plan $size $*" "$gnomon" render --plan --size "$size" "$@" -o "picture.$type"
+    case " $* " in *' --msaa '* | *' Still '*) plain=${look#--msaa 0} ;; esac
+    # shellcheck disable=SC2086
+    output "plan $size $*" "$gnomon" render --plan --size "$size" $plain "$@" -o "picture.$type"
     line $status "picture.$type" "$type $size $*"
 }
 small() { picture 320x180 png "$@"; }

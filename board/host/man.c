@@ -7,19 +7,26 @@
 #include "options/buttons.h"
 #include "options/command.h"
 
-static const char *const sections[] = {"display", "scene", "render", "kiosk"};
+static const char *const sections[] = {"display", "scene", "render", "camera", "light", "kiosk"};
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 static const struct gn_help_entry section_texts[SECTIONS] = {
     {"display", "The screen: card, connector, mode.."},
     {"scene", "What is shown."},
     {"render", "How it is drawn."},
+    {"camera",
+     "The place of the camera, whichever it is, and how far the mouse may take it. [render] "
+     "and modes take these keys, too, by the whole names of their options: camera_theta."},
+    {"light",
+     "The light that a scene without any gets. [render] and modes take these keys, too, by "
+     "the whole names of their options: light_azimuth."},
     {"kiosk", "What gnomon show does by itself."},
 };
 static const char light_text[] =
     "Settings of the lights of that name: their node's, or their own. They take the place of what "
     "the scene says of them and of [render]; a mode, an option and gnomon ctl set beat them. "
-    "\"shadow = none\" always holds. Keys, as in [render]:";
+    "\"shadow = none\" always holds. intensity is in candela, of a directional light in lux, as in "
+    "the file; \"on = no\" switches a light off. Other keys are as in [render] and [light]:";
 static const struct gn_help_entry variables[] = {
     {"WAYLAND_DISPLAY, DISPLAY",
      "one of them set: gnomon without a command opens a window there, else it uses the screen"},
@@ -31,6 +38,9 @@ static const struct gn_help_entry variables[] = {
     {"MESA_SHADER_CACHE_DIR, XDG_CACHE_HOME",
      "where Mesa keeps compiled shaders; with that folder kept between starts the first picture "
      "comes sooner"},
+    {"CACHE_DIRECTORY, XDG_CACHE_HOME",
+     "where prefiltered environments are kept: in the first itself, or in gnomon in the second "
+     "(~/.cache); at most 16, of 256 KB each"},
     {0},
 };
 static const struct gn_help_entry files[] = {
@@ -230,7 +240,9 @@ static void print_ini(void) {
     puts(".SH SECTIONS");
     for (int i = 0; i < SECTIONS; i++) print_section(i);
     print_line(".SS ", "[mode \"NAME\"]", "\n");
-    puts("Any number of modes: keys of [scene] and [render] that differ in it. The first one is "
+    puts("Any number of modes: keys of [scene], [render], [camera] and [light] that differ in it. "
+         "The first "
+         "one is "
          "shown at the start; without any, each technique is a mode.");
     print_line(".SS ", "[light \"NAME\"]", "\n");
     print_line("", light_text, "\n");
@@ -280,7 +292,9 @@ static void print_options(void) {
         }
         putchar('\n');
     }
-    printf("### [mode \"NAME\"]\n\nAny key of [scene] and [render].\n\n### [light \"NAME\"]\n\n%s",
+    printf("### [mode \"NAME\"]\n\nAny key of [scene] and [render], and those of [camera] and "
+           "[light] as camera_theta, "
+           "light_azimuth.\n\n### [light \"NAME\"]\n\n%s",
            light_text);
     for (int i = 0, more = 0; i < GN_OPTION_COUNT; i++)
         if (gn_option_rows[i].of_light)

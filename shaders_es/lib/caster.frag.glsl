@@ -1,4 +1,5 @@
-// Alpha-masked casters: discards fragments below the alpha cutoff.
+// Alpha-masked casters: discards fragments below the alpha cutoff. Blended casters, with ALPHA_DITHER: leaves the share of texels that
+// alpha is, by a fixed pattern of the map.
 #ifdef WITH_ALPHA_MASK
 in vec2 v_uv;
 in float v_alpha;
@@ -14,6 +15,9 @@ void cut_holes() {
 #ifdef WITH_BASE_TEXTURE
     alpha *= texture(u_texture_base, v_uv).a;
 #endif
-    if (alpha < v_cutoff) discard;
+    float least = v_cutoff;
+    if (ALPHA_DITHER) // interleaved gradient noise, as in lib/noise.glsl
+        least = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) + 0.001;
+    if (alpha < least) discard;
 #endif
 }

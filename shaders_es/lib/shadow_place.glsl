@@ -23,6 +23,8 @@ struct shadow_place {
     float reach;  // largest offset from `at` that a technique may read, texels: SAT, and any technique with tiles
     float widest; // largest radius of a filter, texels
     float filter_radius; // the one that is set, texels
+    vec2 tangent, aslant; // point: of the angle to the axis of the tile, along u and v; that / (1 + distance / depth)
+    float horizon; // share of the lamp that is above the receiver's own horizon, 0..1
     vec4 window;  // lower left and upper right edge of the tile, texels: the limit of reads
     vec2 beside;  // as in shadow_tile and shadow_cascade
 };
@@ -71,6 +73,9 @@ vec2 shadow_slope_deep(vec2 across, float height, float depth) {
     return across / shadow_height(height, 0.1 * depth);
 }
 
+// Share of a lamp's disk above the horizon of a surface. height: of its middle, radii of the lamp times HORIZON_SLOPE.
+float shadow_horizon(float height) { return clamp((SHADOW_BACKS ? abs(height) : height) + 0.5, 0.0, 1.0); }
+
 // Spot: projective map, at a depth. Of distances: the gradient of x / w is (grad x - (x / w) grad w) / w.
 vec2 shadow_slope_spot(const int slot, const bool radial, vec3 at, float depth, vec3 n, float height, vec3 l) {
     if (!radial) return shadow_slope_deep(shadow_across(slot, n), height, depth);
@@ -101,7 +106,10 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     s.reach = SHADOW(slot, SHADOW_CODE).CODE_REACH;
     s.widest = CONE_WIDEST;
     s.filter_radius = SHADOW(slot, SHADOW_SLOPE).SLOPE_FILTER;
+    float over = type == LIGHT_DIRECTIONAL ? c : c * light.distance_m;
+    s.horizon = shadow_horizon(over * SHADOW(slot, SHADOW_SLOPE + 1).SLOPE_HORIZON);
     s.window = vec4(0.0, 0.0, s.size.xy);
+    s.tangent = s.aslant = vec2(0.0);
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
         s.slope = shadow_slope_directional(slot, plane, l);
@@ -126,13 +134,16 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
         s.window.xy = c.tile * (0.5 * s.size.x);
         s.window.zw = s.window.xy + 0.5 * s.size.x;
     } else if (type == LIGHT_POINT) {
-        vec3 v = p - LIGHT(slot, LIGHT_PLACE).xyz;
-        shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, p, v, n, c) : shadow_tile_raised_of(slot, v, n, c);
+        vec3 v = LIGHT(slot, LIGHT_PLACE).xyz - p;
+        shadow_tile t = SHADOW_SHARED[slot] ? shadow_tile_shared(slot, v, n, c) : shadow_tile_raised_of(slot, v, n, c);
         s.beside = t.beside;
         s.at = vec3(shadow_tile_uv(slot, t), shadow_code(slot, radial, length(t.q), t.q.z, 1.0 / t.q.z, c, spread));
         s.slope = shadow_tile_slope(slot, radial, t, plane, height);
+        float half_way = 1.0 / (t.q.z + light.distance_m);
+        s.tangent = t.q.xy / t.q.z;
+        s.aslant = t.q.xy * half_way;
         if (radial) s.penumbra.PENUMBRA_RADIUS *= length(t.q) / t.q.z;
-        s.widest = s.reach;
+        s.widest = s.reach * (2.0 * t.q.z * half_way); // taps lie within .83 of the radius, longer by distance / depth
         // Limits penumbrae to the gutter.
         s.penumbra.PENUMBRA_NEAREST =
             max(s.penumbra.PENUMBRA_NEAREST, shadow_penumbra_depth(s, s.at.z) - s.reach / s.penumbra.PENUMBRA_RADIUS);

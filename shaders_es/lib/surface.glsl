@@ -29,9 +29,10 @@ vec4 surface_base() {
     return base;
 }
 
-// Alpha mask: discards fragments below the cutoff. Derivatives in neighbouring fragments are undefined after this.
+// Alpha mask: discards fragments below the cutoff. BLENDED_REST: those above, which are in the picture. Derivatives in neighbouring fragments are undefined after this.
 void surface_cut(vec4 base) {
     if (ALPHA_MASK && base.a < v_surface.w) discard;
+    if (BLENDED_REST && base.a >= v_surface.w) discard;
 }
 
 // Unit, towards the viewer on both sides of a double-sided surface.

@@ -7,7 +7,7 @@ layout(location = 13) in vec4 a_base_color; // linear
 layout(location = 14) in vec4 a_surface;    // roughness, metalness, occlusion strength, alpha cutoff
 layout(location = 15) in vec4 a_emissive;   // linear radiance; w: 1 = casts
 
-uniform vec4 u_uv[2 * SLOT_COUNT]; // two rows per texture slot: uv_from_uv
+uniform vec4 u_uv[2 * SLOT_COUNT]; // two rows per texture slot: uv_from_uv; w of SLOT_NORMAL's first: scale of the normal map
 
 vec3 position_ws() {
     vec4 p = vec4(a_position, 1.0);
@@ -22,6 +22,13 @@ vec3 normal_ws() {
     vec3 c2 = cross(a_world_0.xyz, a_world_1.xyz);
     vec3 n = vec3(dot(c0, a_normal.xyz), dot(c1, a_normal.xyz), dot(c2, a_normal.xyz));
     return dot(a_world_0.xyz, c0) < 0.0 ? -n : n;
+}
+
+// xyz: unit, times the scale of the normal map; w: sign of the bitangent, which mirroring transforms turn.
+vec4 tangent_ws() {
+    vec3 t = vec3(dot(a_world_0.xyz, a_tangent.xyz), dot(a_world_1.xyz, a_tangent.xyz), dot(a_world_2.xyz, a_tangent.xyz));
+    float mirrors = dot(a_world_0.xyz, cross(a_world_1.xyz, a_world_2.xyz));
+    return vec4(normalize(t) * u_uv[2 * SLOT_NORMAL].w, mirrors < 0.0 ? -a_tangent.w : a_tangent.w);
 }
 
 // Sine of the largest angle between the normal and those of the faces around the vertex. Scaling by different factors changes an

@@ -127,10 +127,15 @@ static bool check_names(const struct gn_settings *s, struct gn_err *err) {
 /* ---- what a kiosk makes of it
  * -------------------------------------------------------------------------- */
 
-static void print_setting(const struct gn_option_row *row, const void *value, int count) {
+/* section: as gn_option_find_key() has it. */
+static void print_setting(const char *section, const struct gn_option_row *row, const void *value,
+                          int count) {
+    const struct gn_option_row whole = {.name = row->name};
     char key[64], text[1024];
     gn_value_text(row, value, text, sizeof text);
-    printf("%s%s = %s", count ? ", " : "", gn_option_key(row, key, sizeof key), text);
+    gn_option_key(row, key, sizeof key);
+    if (gn_option_find_key(section, key) != row) gn_option_key(&whole, key, sizeof key);
+    printf("%s%s = %s", count ? ", " : "", key, text);
 }
 
 static void print_buttons(const struct gn_options *o) {
@@ -163,7 +168,8 @@ static void print_buttons(const struct gn_options *o) {
 }
 
 static void print_check(const struct check *c, const struct gn_options *o) {
-    static const char *const sections[] = {"display", "scene", "render", "kiosk"};
+    static const char *const sections[] = {"display", "scene", "render",
+                                           "camera",  "light", "kiosk"};
     printf("%s is valid: %d mode%s, %d button%s, %d scene%s\n", o->config_path, o->mode_count,
            o->mode_count == 1 ? "" : "s", o->buttons ? o->buttons->count : 0,
            o->buttons && o->buttons->count == 1 ? "" : "s", c->scene_count,
@@ -176,7 +182,7 @@ static void print_check(const struct check *c, const struct gn_options *o) {
                 o->settings->source[i] == GN_SOURCE_DEFAULT)
                 continue;
             if (count == 0) printf("[%s] ", sections[s]);
-            print_setting(row, gn_settings_value(o->settings, row), count++);
+            print_setting(sections[s], row, gn_settings_value(o->settings, row), count++);
         }
         if (count) putchar('\n');
     }
@@ -186,7 +192,7 @@ static void print_check(const struct check *c, const struct gn_options *o) {
         printf("mode \"%s\": ", mode->name);
         int count = 0;
         for (const struct gn_override *set = mode->first; set; set = set->next)
-            print_setting(set->row, set->value, count++);
+            print_setting(NULL, set->row, set->value, count++);
         puts(count ? "" : "no settings of its own");
     }
     for (int i = 0; i < o->settings->light_count; i++) {

@@ -118,14 +118,16 @@ static const struct group {
     {"scene, [scene] in kiosk.ini", "scene", false},
     {"picture, [render] in kiosk.ini", "render", false},
     {"shadows, [render] in kiosk.ini", "render", true},
+    {"camera, [camera] in kiosk.ini", "camera", false},
+    {"light of a scene without any, [light] in kiosk.ini", "light", false},
     {"display, [display] in kiosk.ini", "display", false},
     {"kiosk, [kiosk] in kiosk.ini", "kiosk", false},
     {"other options", NULL, false},
 };
 
 static void print_group(FILE *to, const struct group *group, enum gn_command command) {
-    static const char *const shadows[] = {"shadow", "map",          "planar",   "taps",
-                                          "filter", "light-radius", "cascades", "cast-faces"};
+    static const char *const shadows[] = {"shadow", "map",      "planar",    "taps",
+                                          "filter", "cascades", "cast-faces"};
     bool begun = false;
     for (int i = 0; i < GN_OPTION_COUNT; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];

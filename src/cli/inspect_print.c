@@ -130,6 +130,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     print_line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
                s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
                k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
+    if (s->missing && s->missing[0]) print_line(to, "%-11s %s", "missing", s->missing);
     const float *colors[] = {s->environment.sky, s->environment.ground, s->environment.background};
     static const char *const names[] = {"sky", "ground", "background"};
     for (int i = 0; i < 3; i++)
@@ -283,6 +284,7 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
         "memory_bytes", gn_json_make_count(s->memory.bytes));
     json_object_set_new(all, "cost", cost);
     json_object_set_new(all, "limits", gn_json_make_text(in->limits));
+    json_object_set_new(all, "missing", gn_json_make_text(s->missing));
 
     json_t *warnings = json_array();
     for (int i = 0; in->warnings && i < in->warnings->count; i++)

@@ -109,6 +109,7 @@ static bool write_color(struct desk *desk, const char *what, struct gn_warnings 
 static void choose_settings(struct desk *desk, const struct gn_options *options, int step) {
     desk->settings = options->all[1 + step];
     if (!gn_settings_given(&desk->settings, render.size)) desk->settings.render.size = default_size;
+    desk->settings.scene.floor_m = INFINITY; /* a scene of a lesson is all there is */
     desk->settings.run.samples = measures(desk, GN_FIGURE_PENUMBRA) ? SAMPLES : 1;
 }
 
@@ -117,6 +118,7 @@ static bool choose_look(struct desk *desk, struct gn_warnings *warnings, struct 
     if (!gn_stage_look_build(&look, &desk->settings, desk->stage.scene, warnings, err))
         return false;
     desk->stage.frame_opts = look.frame_opts;
+    desk->stage.frame_opts.tone = GN_TONE_NONE; /* figures and pictures are of the shadow alone */
     return true;
 }
 

@@ -83,8 +83,8 @@ static bool write_picture(struct render *r, const struct gn_plan *plan, const ch
         return write_grey(r, path, r->stage.truth.visibility, w, h, err);
     if (plan->aov == GN_AOV_COLOR && r->format == GN_PICTURE_PNG)
         return gn_gl_read_rgba8(r->stage.gl, r->rgba, err) &&
-               gn_picture_write_png8(path, r->rgba, w, h,
-                                     r->stage.settings->render.output == GN_PICTURE_SRGB, err);
+               (plan->transparent ? gn_picture_write_png8_alpha : gn_picture_write_png8)(
+                   path, r->rgba, w, h, r->stage.settings->render.output == GN_PICTURE_SRGB, err);
     if (plan->aov == GN_AOV_COLOR && plan->output != GN_OUTPUT_FLOAT) {
         if (!gn_gl_read_rgba8(r->stage.gl, r->rgba, err)) return false;
         for (size_t i = 0; i < 4 * pixels; i++) r->floats[i] = (float)r->rgba[i] / 255.0f;
@@ -162,12 +162,16 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
         return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->run.out);
 
     bool ok = gn_stage_load(&r.stage, o, warnings, err);
+    r.stage.frame_opts.keeps_alpha = r.format == GN_PICTURE_PNG;
     r.stage.frame_opts.output_float = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     if (isatty(STDERR_FILENO)) {
         r.stage.truth.progress = print_progress;
         r.stage.truth.user = &r;
     }
     ok = ok && gn_stage_open(&r.stage, warnings, err);
+    if (ok)
+        r.stage.frame_opts.msaa = gn_stage_msaa(&r.stage, (uint32_t)o->render.size.width_px,
+                                                (uint32_t)o->render.size.height_px, true);
     if (ok && o->run.caption) { /* it stays: one layout for all frames */
         const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
         r.captions = gn_captions_create(&opts);

@@ -39,7 +39,7 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
                                  (uint32_t)(right - left), (uint32_t)(bottom - top)};
     struct gn_pass *pass = gn_frame_picture_pass(frame, "captions");
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_CAPTION);
-    if (gn_frame_encodes_last(frame)) pass->target.kind = GN_TARGET_ENCODED;
+    if (frame->plan.finishes) pass->target.kind = GN_TARGET_ENCODED;
     pass->rect = gn_frame_turned_rect(frame, rect);
     pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;

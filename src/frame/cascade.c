@@ -39,6 +39,7 @@ static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow
         const struct gn_pose *pose = v->now;
         if (i > 0) { /* not the current camera */
             if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->clips);
+            if (v->now->aimed) gn_pose_aim(&v->other, v->now->aim_ws);
             const int64_t ns = v->lasts_ns / (OTHERS - 1) * (i - 1);
             const bool last = i == OTHERS && ns > 0; /* the end of the path, too */
             gn_pose_step(&v->other, last ? v->lasts_ns - 1 : ns);

@@ -258,7 +258,8 @@ const char *gn_plan_check(const struct gn_plan *plan) {
         if (passes[i].kind == GN_PASS_PICTURE) REQUIRE(passes[i].picture.resolves == (i == last));
     REQUIRE(passes[0].clear.area != GN_CLEAR_NOTHING);
     REQUIRE(passes[plan->pass_count - 1].kind == GN_PASS_PICTURE);
-    REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) ==
-            (plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT));
+    REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) == plan->finishes);
+    REQUIRE(!plan->finishes || plan->output == GN_OUTPUT_FLOAT);
+    REQUIRE(plan->tone > GN_TONE_AUTO && plan->tone < GN_TONE_COUNT);
     return NULL;
 }

@@ -10,7 +10,9 @@ _Static_assert(GN_PASS_SIZE == PASS_SIZE, "room for the constants of a pass");
 _Static_assert(PASS_LIGHTS + GN_LIGHTS_MAX * LIGHT_SIZE <= PASS_CONES, "lights");
 _Static_assert(PASS_SHADOWS + GN_SHADOWS_MAX * SHADOW_SIZE == PASS_SLIDES, "shadows");
 _Static_assert(PASS_SLIDES + GN_SLIDES_MAX * SLIDE_SIZE == PASS_CASCADES, "slides");
-_Static_assert(PASS_CASCADES + GN_SHADOWS_MAX * CASCADES_SIZE == PASS_SIZE, "cascades");
+_Static_assert(PASS_CASCADES + GN_SHADOWS_MAX * CASCADES_SIZE == PASS_ENVIRONMENT, "cascades");
+_Static_assert(ENVIRONMENT_TURN == GN_ENVIRONMENT_HARMONICS, "the environment");
+_Static_assert(PASS_ENVIRONMENT + ENVIRONMENT_SIZE == PASS_SIZE, "the environment");
 
 _Static_assert(CASCADES_ZONES == GN_CASCADES_MAX && CASCADES_SIZE == CASCADES_ZONES + 2,
                "one vec4 each, and two of them all");
@@ -82,6 +84,8 @@ static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_BIAS][BIAS_ULP] = view->code.ulp_m;
     set_slope(view, c + SHADOW_SLOPE);
     c[SHADOW_SLOPE][SLOPE_FILTER] = lookup->filter_radius_px;
+    const float lamp = view->penumbra.radius * (cascades ? 1.0f : lookup->texel);
+    c[SHADOW_SLOPE + 1][SLOPE_HORIZON] = HORIZON_SLOPE / fmaxf(lamp, 1e-6f);
     put3(c[SHADOW_PLACE], view->light_ws);
     c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
     const float size[2] = {(float)view->map.width_px, (float)view->map.height_px};
@@ -95,7 +99,7 @@ static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     if (cascades)
         c[SHADOW_CODE][CODE_HELD] = lookup->held_px;
     else
-        c[SHADOW_CODE][CODE_SHARED] = lookup->shared > 0.0f ? 1.0f / lookup->shared : 0.0f;
+        c[SHADOW_CODE][CODE_SHARED] = 1.0f - lookup->shared;
     const struct gn_shadow_penumbra *penumbra = &view->penumbra;
     c[SHADOW_PENUMBRA][PENUMBRA_RADIUS] = penumbra->radius;
     if (cascades)
@@ -141,7 +145,7 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
         vec3 place, direction;
         gn_pose_light(pose, chosen->light, place, direction);
         for (int k = 0; k < 3; k++) {
-            c[LIGHT_COLOR][k] = light->color[k] * frame->plan.exposure / GLM_PIf;
+            c[LIGHT_COLOR][k] = chosen->color[k] * frame->plan.exposure / GLM_PIf;
             c[LIGHT_PLACE][k] = gn_light_types[light->type].has_position ? place[k] : -direction[k];
         }
         c[LIGHT_COLOR][3] = chosen->strength;

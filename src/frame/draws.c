@@ -62,35 +62,42 @@ static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
         return false;
     const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];
     const struct gn_box *box = &pose->items[item].box_ws;
+    const bool opaque = m->alpha != GN_ALPHA_BLEND || gn_material_has_opaque_texels(m);
     if (s->group) /* of added lights: opaque items in their range */
-        return pose->items[item].visible && !m->unlit && m->alpha != GN_ALPHA_BLEND &&
-               gn_eye_sees(&frame->eye, box) && gn_group_touches(s->group, box);
+        return pose->items[item].visible && !m->unlit && opaque && gn_eye_sees(&frame->eye, box) &&
+               gn_group_touches(s->group, box);
     if (!pose->items[item].visible || !(s->opts->all_seen || gn_eye_sees(&frame->eye, box))) {
         frame->plan.culled++;
         return false;
     }
     if (m->alpha != GN_ALPHA_BLEND) return true;
-    if (s->opts->debug.aov == GN_AOV_COLOR)
-        GN_LIST_PUSH(&frame->items.blended) = (struct gn_placed){depth_of(frame, box, false), item};
-    return false;
+    if (m->shadow_catcher && s->opts->debug.aov == GN_AOV_VISIBILITY) return true;
+    if (s->opts->debug.aov == GN_AOV_COLOR) /* a shadow catcher is behind all that is blended */
+        GN_LIST_PUSH(&frame->items.blended) =
+            (struct gn_placed){m->shadow_catcher ? INFINITY : depth_of(frame, box, false), item};
+    return opaque && s->opts->debug.aov == GN_AOV_COLOR;
 }
 
 void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_selection *s, uint32_t item, bool *open) {
     const struct gn_item *what = &frame->scene->items[item];
     bool mirrored = pose->items[item].mirrored != s->mirrored;
-    enum gn_cull cull =
-        frame->scene->materials[what->material].double_sided ? GN_CULL_NONE : GN_CULL_BACK;
+    const struct gn_material *m = &frame->scene->materials[what->material];
+    const bool in_parts = !s->casts && gn_material_has_opaque_texels(m);
+    enum gn_cull cull = m->double_sided ? s->cull : GN_CULL_BACK;
     if (s->casts) cull = s->backs ? GN_CULL_FRONT : caster_cull(frame->scene, pose, item, s->view);
     if (*open) { /* an instance of the last draw? */
         const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
-        *open = last->mirrored == mirrored && last->cull == cull;
+        *open = last->mirrored == mirrored && last->cull == cull &&
+                (s->casts || gn_material_has_opaque_texels(
+                                 &frame->scene->materials[last->material]) == in_parts);
     }
     if (!*open) {
         struct gn_program_key key =
             s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
         if (s->casts && !s->backs && casts_by_middle(frame->scene, pose, item, s->view))
             gn_key_add_middle(s->view, &key);
+        if (in_parts) gn_key_take_part(s->blends, &key);
         if (s->group) key = gn_key_additive(frame, &key, s->group, s->opts);
         uint32_t program = gn_frame_program(frame, &key);
         GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,
@@ -101,7 +108,6 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                                                        .mirrored = mirrored};
         *open = true;
     }
-    const struct gn_material *m = &frame->scene->materials[what->material];
     struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 4; c++) instance->world[r][c] = pose->items[item].world_from_item[c][r];
@@ -109,7 +115,15 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
     instance->surface[0] = m->roughness;
     instance->surface[1] = m->metalness;
     instance->surface[2] = m->occlusion_strength;
-    instance->surface[3] = m->alpha_cutoff;
+    instance->surface[3] = in_parts ? GN_OPAQUE_ALPHA : m->alpha_cutoff;
+    if (m->shadow_catcher) { /* centre of its square, 1 / half its side, 1 / side of the occluded
+                                part */
+        vec4 *world = pose->items[item].world_from_item;
+        memcpy(instance->surface,
+               (float[4]){world[3][0], world[3][2], 1.0f / world[0][0],
+                          1.0f / (GN_FLOOR_OCCLUDED * world[0][0])},
+               sizeof instance->surface);
+    }
     memcpy(instance->emissive, m->emissive, sizeof m->emissive);
     instance->emissive[3] = gn_shadow_item_casts(frame->scene, item) ? 1.0f : 0.0f;
     struct gn_draw *draw = &frame->draws.at[frame->draws.count - 1];

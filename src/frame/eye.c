@@ -9,8 +9,9 @@
 /* A camera moved by the user shows all of the scene: the camera's own near and far planes then only
  * extend the range. */
 static void make_projection(const struct gn_camera *camera, const struct gn_orbit *orbit,
-                            float aspect, const float reach_m[2], mat4 clip_from_view) {
-    const bool moved = !gn_orbit_is_zero(orbit);
+                            bool placed, float aspect, const float reach_m[2],
+                            mat4 clip_from_view) {
+    const bool moved = placed || !gn_orbit_is_zero(orbit);
     float near_m = camera->near_m, far_m = reach_m[1];
     /* A far plane far beyond the scene shows nothing more and costs depth precision. */
     if (camera->far_m > 0.0f && camera->far_m < FAR_TIMES * reach_m[1]) far_m = camera->far_m;
@@ -36,16 +37,21 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
                       const struct gn_frame_opts *opts, struct look *look) {
     static const struct gn_orbit unmoved;
     const struct gn_orbit *orbit = opts->view.light_plus_1 ? &unmoved : &opts->view.orbit;
-    struct gn_camera camera = frame->scene->cameras[opts->view.camera];
-    float aspect = (float)frame->picture.width_px / (float)frame->picture.height_px;
+    struct gn_framing framing;
+    const float aspect = (float)frame->picture.width_px / (float)frame->picture.height_px;
+    struct gn_framing_opts framing_opts = opts->view.framing;
+    framing_opts.aspect = aspect;
     mat4 clip_from_view;
     float reach_m[2] = {0}; /* to what is looked at, and to the end of the scene */
     if (opts->view.light_plus_1)
-        gn_frame_light_camera(pose, opts->view.light_plus_1 - 1, aspect, &camera,
-                              look->view_from_world, look->eye_ws);
+        gn_frame_light_camera(pose, opts->view.light_plus_1 - 1, aspect, &framing.camera,
+                              framing.view_from_world, framing.eye_ws);
     else
-        reach_m[0] = gn_orbit_view(orbit, pose, (uint32_t)opts->view.camera, look->view_from_world,
-                                   look->eye_ws);
+        reach_m[0] =
+            gn_orbit_view(orbit, pose, (uint32_t)opts->view.camera, &framing_opts, &framing);
+    const struct gn_camera camera = framing.camera;
+    glm_mat4_copy(framing.view_from_world, look->view_from_world);
+    glm_vec3_copy(framing.eye_ws, look->eye_ws);
     look->orthographic = camera.orthographic;
     const float angle_rad = opts->view.turntable_rad;
     if (angle_rad != 0.0f) { /* about the vertical axis through the scene's centre */
@@ -68,7 +74,8 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
             fmaxf(fabsf(box->min[k] - look->eye_ws[k]), fabsf(box->max[k] - look->eye_ws[k]));
     const float far_m = glm_vec3_norm(reach) * 1.01f, least_m = 2.0f * camera.near_m;
     reach_m[1] = isfinite(far_m) && far_m > least_m ? far_m : least_m;
-    make_projection(&camera, orbit, aspect, reach_m, clip_from_view);
+    const bool placed = !opts->view.light_plus_1 && framing.distance_m > 0.0f;
+    make_projection(&camera, orbit, placed, aspect, reach_m, clip_from_view);
     /* Rotates the picture in clip space: free for a rotated screen. */
     const float c = frame->picture.turn[0], s = frame->picture.turn[1];
     for (int k = 0; k < 4; k++) {
@@ -98,4 +105,17 @@ void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
         constants[PASS_EXPOSURE][1 + k] = look.eye_ws[k];
     }
     constants[PASS_EYE][3] = look.orthographic ? 0.0f : 1.0f;
+}
+
+float gn_frame_camera_azimuth(const struct gn_pose *pose, const struct gn_frame_view_opts *view) {
+    struct gn_framing framing;
+    vec3 up, back;
+    gn_orbit_view(&view->orbit, pose, (uint32_t)view->camera, &view->framing, &framing);
+    for (int k = 0; k < 3; k++) {
+        up[k] = framing.view_from_world[k][1];
+        back[k] = framing.view_from_world[k][2];
+    }
+    /* looking straight down, or up: the lower edge of the picture, or the upper one */
+    if (hypotf(back[0], back[2]) < 1e-3f) glm_vec3_scale(up, back[1] > 0.0f ? -1.0f : 1.0f, back);
+    return atan2f(back[0], back[2]) + view->turntable_rad;
 }

@@ -26,7 +26,20 @@
                                            flat varyings */                                        \
     X(ADDITIVE, "additive") /* LIT: light alone, to be added: no ambient, emission, alpha */       \
     X(SHADOW_SPECULAR, "shadow-specular") /* shadows leave a share of highlights of their own */   \
+    X(REFLECTANCE, "f0")                  /* its reflectance is not that of an IOR of 1.5 */       \
     X(METAL, "metal")                     /* the material may be a metal in places */              \
+    X(TONE_NEUTRAL, "neutral")            /* LIT, ENCODE: maps the tone */                         \
+    X(TONE_ACES, "aces")                                                                           \
+    X(TONE_AGX, "agx")                                                                             \
+    X(CATCHER,                                                                                     \
+      "catcher") /* LIT: a shadow catcher: alpha is the share of light that shadows take */        \
+    X(TRANSPARENT, "transparent") /* ENCODE: keeps alpha */                                        \
+    X(ALPHA_DITHER, "dither")     /* DEPTH, DISTANCE, FLAT: a mask with that share of texels */    \
+    X(BLENDED_REST, "rest")       /* LIT: leaves out texels that were drawn as opaque ones */      \
+    X(ENVIRONMENT, "environment") /* reflects it */                                                \
+    X(ENVIRONMENT_DIFFUSE, "environment-diffuse") /* in place of the hemispheres */                \
+    X(ENVIRONMENT_SCALED, "environment-scaled")   /* by a factor other than 1 */                   \
+    X(ENVIRONMENT_TURNED, "environment-turned")                                                    \
     X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */
 
 enum gn_feature_bit {

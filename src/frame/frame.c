@@ -67,6 +67,57 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
     }
 }
 
+static bool keeps_alpha(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                        struct gn_warnings *warnings) {
+    if (opts->background != GN_BACKGROUND_TRANSPARENT || opts->debug.aov != GN_AOV_COLOR)
+        return false;
+    const bool floats = frame->caps.has & 1u << GN_CAP_RGBA16F;
+    if (opts->keeps_alpha && floats && !opts->output_float) return true;
+    if (gn_frame_notice(&frame->notes.said, GN_NOTICE_TRANSPARENT, warnings))
+        gn_warn(warnings, "a transparent background is for .png files%s; here it is black",
+                floats ? "" : ", drawn by a GPU with rgba16f targets");
+    return false;
+}
+
+/* Groups are added, and samples averaged, in linear light: then a last pass encodes. The tone is
+ * that of the sum of the groups. Alpha is kept in half floats until colours are divided by it. */
+static void choose_finish(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                          struct gn_warnings *warnings) {
+    struct gn_plan *plan = &frame->plan;
+    const bool adds = frame->group_count > 1;
+    const bool resolves_to_float = plan->msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
+    plan->finished = plan->output;
+    plan->tones_sum = plan->tone != GN_TONE_NONE && adds;
+    plan->transparent = keeps_alpha(frame, opts, warnings);
+    plan->finishes =
+        (plan->encode_srgb && (adds || resolves_to_float)) || plan->tones_sum || plan->transparent;
+    if (plan->finishes) plan->output = GN_OUTPUT_FLOAT;
+}
+
+/* Before programs are chosen: what of the environment is drawn. */
+static void choose_environment(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    const struct gn_frame_environment_opts *e = &opts->environment;
+    const bool is_drawn = e->of && e->strength > 0.0f && opts->debug.aov == GN_AOV_COLOR;
+    if (!is_drawn) return;
+    frame->plan.environment.light = e->lights_key ? &e->of->rest : &e->of->whole;
+    frame->plan.environment.id = e->id + e->lights_key;
+    frame->environment.reflected_only = e->reflected_only;
+    frame->environment.turned = e->turn_rad != 0.0f;
+}
+
+static void set_environment_constants(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                                      float (*c)[4]) {
+    const struct gn_environment_light *light = frame->plan.environment.light;
+    c[PASS_SKY][3] = 0.0f;
+    if (!light) return;
+    c[PASS_SKY][3] = opts->environment.strength * c[PASS_EXPOSURE][0];
+    frame->environment.scaled = c[PASS_SKY][3] != 1.0f;
+    for (int i = 0; i < GN_ENVIRONMENT_HARMONICS; i++)
+        memcpy(c[PASS_ENVIRONMENT + i], light->harmonics[i], sizeof light->harmonics[i]);
+    c[PASS_ENVIRONMENT + ENVIRONMENT_TURN][0] = cosf(opts->environment.turn_rad);
+    c[PASS_ENVIRONMENT + ENVIRONMENT_TURN][1] = sinf(opts->environment.turn_rad);
+}
+
 static void set_picture_constants(struct gn_frame *frame, const struct gn_pose *pose,
                                   const struct gn_frame_opts *opts) {
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
@@ -75,6 +126,7 @@ static void set_picture_constants(struct gn_frame *frame, const struct gn_pose *
     /* Emission and the hemisphere are specified as displayed: an automatic exposure for lux would
      * make them black. */
     c[PASS_EXPOSURE][0] = opts->exposure_given ? frame->plan.exposure : 1.0f;
+    set_environment_constants(frame, opts, c);
     for (uint32_t i = 0; i < frame->group_count; i++) {
         float(*of_group)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + i);
         if (i > 0) memcpy(of_group, c, PASS_LIGHTS * sizeof *c);
@@ -102,13 +154,12 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_learn_scene(frame);
     gn_frame_renew_notices(frame, opts);
     choose_output(frame, opts, warnings);
+    choose_environment(frame, opts);
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
     plan->exposure = gn_frame_exposure(frame, pose, opts);
     gn_frame_choose_lights(frame, pose, opts, warnings);
-    /* Groups are added, and samples averaged, in linear light: then a last pass encodes. */
-    const bool resolves_to_float = plan->msaa > 1 && frame->caps.has & 1u << GN_CAP_RGBA16F;
-    if (plan->encode_srgb && (frame->group_count > 1 || resolves_to_float))
-        plan->output = GN_OUTPUT_FLOAT;
+    gn_frame_choose_tone(frame, opts, warnings);
+    choose_finish(frame, opts, warnings);
     gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
     gn_frame_gather_points(frame, opts);

@@ -22,6 +22,8 @@ enum gn_light_given {
     GN_LIGHT_FILTER = 1024,
     GN_LIGHT_TAPS = 2048,
     GN_LIGHT_SLIDE_FAR = 4096,
+    GN_LIGHT_COLOR = 8192,
+    GN_LIGHT_OFF = 16384, /* it does not shine */
 };
 struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     uint32_t light;          /* index in the scene */
@@ -40,6 +42,7 @@ struct gn_frame_light_opts { /* all of 4 bytes: hashed */
     float bias_texels;      /* below 0: the technique's */
     float filter_radius_px; /* 0: the technique's */
     uint32_t taps;          /* as below */
+    float color[3];         /* as in gn_light; does not change an automatic exposure */
 };
 
 struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
@@ -87,7 +90,8 @@ struct gn_frame_view_opts {
     uint32_t light_plus_1; /* the view of that light, a spot or a directional one, in place of the
                               camera's; 0: none */
     struct gn_orbit orbit; /* the camera moved by the user */
-    float turntable_rad;   /* the camera is rotated about +Y through the scene's centre by this */
+    struct gn_framing_opts framing; /* but its aspect, which is that of the picture */
+    float turntable_rad; /* the camera is rotated about +Y through the scene's centre by this */
 };
 
 struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it */
@@ -97,8 +101,20 @@ struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it
     bool show_maps;   /* draw the maps as panels along the lower edge */
 };
 
+struct gn_frame_environment_opts {
+    const struct gn_environment *of; /* NULL: none; must stay as it is while plans use it */
+    uint64_t id;                     /* of its content */
+    bool lights_key;     /* the light that was made for the scene is its key: only the rest is the
+                            environment. Its colour and radius are among shadow.lights, its
+                            direction is in the pose */
+    bool reflected_only; /* its diffuse light is left out: the hemispheres stay */
+    float turn_rad;      /* about +Y */
+    float strength;      /* factor on its radiance; must be set */
+};
+
 struct gn_frame_opts {
     struct gn_frame_shadow_opts shadow;
+    struct gn_frame_environment_opts environment;
     struct gn_frame_view_opts view;
     struct gn_frame_debug_opts debug;
     uint32_t width_px, height_px; /* of the output; 1280 x 720 */
@@ -106,6 +122,15 @@ struct gn_frame_opts {
                                      clockwise by this; by 90 it is height_px wide */
     bool unencoded;               /* the output's framebuffer does not encode: shaders do */
     bool output_linear, output_float;
+    enum gn_background {
+        GN_BACKGROUND_SCENE, /* as the scene has it */
+        GN_BACKGROUND_SKY,   /* the hemisphere's horizon, whatever the scene has */
+        GN_BACKGROUND_COLOR,
+        GN_BACKGROUND_TRANSPARENT, /* where the output keeps alpha; else black */
+    } background;
+    float background_color[3]; /* linear */
+    bool keeps_alpha;          /* the picture goes where alpha has a meaning: a file */
+    enum gn_tone tone;         /* AUTO: as gn_frame_choose_tone() decides */
     uint32_t msaa;
     bool exposure_given;
     float exposure_ev;                     /* stops, when given; else automatic */
@@ -116,6 +141,9 @@ struct gn_frame_opts {
 
 /* What options say of that light of the scene alone; nothing given: no such options. */
 struct gn_frame_light_opts gn_frame_light_opts(const struct gn_frame_opts *opts, uint32_t light);
+/* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from
+ * +Z, towards +X. Moved by the user and by the turntable; never that of a light. */
+float gn_frame_camera_azimuth(const struct gn_pose *pose, const struct gn_frame_view_opts *view);
 /* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
  * what casts. */
 void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,

@@ -12,13 +12,32 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
     return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
 }
 
-/* The features that an item's alpha depends on; 0 unless it is masked. */
-static uint64_t alpha_features(const struct gn_scene *scene, const struct gn_item *item) {
+/* The features that an item's alpha depends on. */
+static uint64_t cut_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_material *m = &scene->materials[item->material];
-    if (m->alpha != GN_ALPHA_MASK) return 0;
     uint64_t features = GN_FEATURE(ALPHA_MASK) | texture_features(m, GN_TEXTURE_BASE);
     if (gn_geometry_has(&scene->geometries[item->geometry], GN_ATTRIBUTE_COLOR))
         features |= GN_FEATURE(VERTEX_COLOR);
+    return features;
+}
+
+/* The same; 0 unless it is masked. */
+static uint64_t alpha_features(const struct gn_scene *scene, const struct gn_item *item) {
+    const bool masked = scene->materials[item->material].alpha == GN_ALPHA_MASK;
+    return masked ? cut_features(scene, item) : 0;
+}
+
+/* Bits of the environment, of a lit material. */
+static uint64_t environment_features(const struct gn_frame *frame, const struct gn_material *m) {
+    uint64_t features = 0;
+    if (!frame->plan.environment.light) return 0;
+    /* a light map stands for all diffuse light that is not of a light */
+    if (!frame->environment.reflected_only && m->textures[GN_TEXTURE_LIGHTMAP].texture < 0)
+        features |= GN_FEATURE(ENVIRONMENT_DIFFUSE);
+    if (gn_material_is_specular(m)) features |= GN_FEATURE(ENVIRONMENT);
+    if (!features) return 0;
+    if (frame->environment.scaled) features |= GN_FEATURE(ENVIRONMENT_SCALED);
+    if (frame->environment.turned) features |= GN_FEATURE(ENVIRONMENT_TURNED);
     return features;
 }
 
@@ -26,24 +45,31 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     const struct gn_scene *scene = frame->scene;
     const struct gn_material *m = &scene->materials[item->material];
     uint64_t features = alpha_features(scene, item);
+    const struct gn_geometry *geometry = &scene->geometries[item->geometry];
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        if (gn_material_reads(m, slot)) features |= texture_features(m, slot);
-    const uint64_t attributes =
-        scene->geometries[item->geometry].attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
+        if (gn_material_reads(m, slot) &&
+            (slot != GN_TEXTURE_NORMAL || gn_geometry_has(geometry, GN_ATTRIBUTE_TANGENT)))
+            features |= texture_features(m, slot);
+    const uint64_t attributes = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
     features |= attributes << GN_FEATURE_FIRST_ATTRIBUTE;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
+    if (!frame->plan.tones_sum) features |= gn_frame_tone_feature(frame);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
         features |= GN_FEATURE(ENCODE_SRGB);
     if (frame->caps.software && !m->unlit) features |= GN_FEATURE(FLAT_CONSTANTS);
     if (m->unlit) return features | GN_FEATURE(UNLIT);
+    if (m->shadow_catcher) features |= GN_FEATURE(CATCHER);
     if (m->double_sided) features |= GN_FEATURE(DOUBLE_SIDED);
     if (gn_material_is_specular(m)) {
         features |= GN_FEATURE(SPECULAR);
+        if (gn_material_has_f0(m)) features |= GN_FEATURE(REFLECTANCE);
         if (frame->shadow_specular) features |= GN_FEATURE(SHADOW_SPECULAR);
     }
     if (gn_material_is_metal(m)) features |= GN_FEATURE(METAL);
     if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
-    if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0)
+    features |= environment_features(frame, m);
+    if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0 &&
+        !(features & GN_FEATURE(ENVIRONMENT_DIFFUSE)))
         features |= GN_FEATURE(HEMISPHERE);
     return features;
 }
@@ -124,11 +150,21 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     return key;
 }
 
+void gn_key_take_part(bool rest, struct gn_program_key *key) {
+    if (!(key->features & GN_FEATURE(ALPHA_BLEND))) return;
+    if (rest)
+        key->features |= GN_FEATURE(BLENDED_REST);
+    else
+        key->features ^= GN_FEATURE(ALPHA_BLEND) | GN_FEATURE(ALPHA_MASK);
+}
+
 struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,
                                       const struct gn_light_group *group,
                                       const struct gn_frame_opts *opts) {
-    uint64_t once = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE);
+    uint64_t once = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
+                    GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
+                    GN_FEATURE(ENVIRONMENT_TURNED);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_texture_slots[slot].shading >= GN_SHADING_EMISSION)
             once |= texture_bit(slot) | uv1_bit(slot);
@@ -147,7 +183,10 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
     key.kind = gn_encoding_is_depth(view->encoding)    ? GN_PROGRAM_DEPTH
                : view->encoding == GN_ENCODING_STENCIL ? GN_PROGRAM_FLAT
                                                        : GN_PROGRAM_DISTANCE;
-    key.features = alpha_features(frame->scene, &frame->scene->items[item]);
+    const struct gn_item *what = &frame->scene->items[item];
+    key.features = alpha_features(frame->scene, what);
+    if (frame->scene->materials[what->material].alpha == GN_ALPHA_BLEND)
+        key.features = cut_features(frame->scene, what) | GN_FEATURE(ALPHA_DITHER);
     if (key.kind != GN_PROGRAM_DISTANCE) return key;
     key.encoding = (uint8_t)view->encoding;
     if (view->perspective && !gn_techniques[view->technique].on_plane)

@@ -3,17 +3,19 @@
 
 #include "frame/private.h"
 
-static float luminance(const vec3 c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+static float luminance(const float c[3]) {
+    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+}
 
 /* Lux on a surface at the scene's centre that faces the light; ignores cones. */
-static float illuminance(const struct gn_pose *pose, uint32_t index) {
+static float illuminance(const struct gn_pose *pose, uint32_t index, const float color[3]) {
     const struct gn_light *light = &pose->scene->lights[index];
-    if (!gn_light_types[light->type].has_position) return luminance(light->color);
+    if (!gn_light_types[light->type].has_position) return luminance(color);
     vec3 place, direction, centre;
     gn_pose_light(pose, index, place, direction);
     glm_vec3_center((float *)pose->box_ws.min, (float *)pose->box_ws.max, centre);
     float d2 = glm_vec3_distance2(place, centre);
-    return luminance(light->color) / fmaxf(d2, 1e-4f);
+    return luminance(color) / fmaxf(d2, 1e-4f);
 }
 
 float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
@@ -22,7 +24,7 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     if (frame->auto_exposure.known) return frame->auto_exposure.value;
     float sum = 0.0f, strongest = 0.0f;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
-        float lux = illuminance(pose, i);
+        float lux = illuminance(pose, i, frame->scene->lights[i].color);
         sum += lux;
         strongest = fmaxf(strongest, lux);
     }
@@ -203,6 +205,7 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
         if (visibility ? (int)i != opts->debug.light : opts->debug.aov != GN_AOV_COLOR) continue;
         const struct gn_frame_light_opts one = gn_frame_light_opts(opts, i);
+        if (one.given & GN_LIGHT_OFF) continue;
         struct gn_frame_light l = {.light = i,
                                    .technique = technique_of(frame, i, opts, &one, warnings)};
         l.strength = one.given & GN_LIGHT_STRENGTH ? one.strength
@@ -213,7 +216,9 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                                    ? opts->shadow.specular
                                    : frame->scene->lights[i].shadow_specular;
         l.specular = specular >= 0.0f ? specular : 1.0f - l.strength;
-        l.illuminance = illuminance(pose, i);
+        const float *color = one.given & GN_LIGHT_COLOR ? one.color : frame->scene->lights[i].color;
+        memcpy(l.color, color, sizeof l.color);
+        l.illuminance = illuminance(pose, i, l.color);
         if (casts_shadow(&l)) choose_encoding(frame, opts, &one, &l, warnings);
         if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */
             const uint32_t least = find_weakest(frame, false);
@@ -253,8 +258,8 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_choose_slides(frame, opts, warnings);
     gn_frame_group_lights(frame, pose);
     gn_frame_add_plane_slots(frame);
-    if (frame->plane.shown < frame->plane.count && has_planar_light(frame) &&
-        gn_frame_notice(&frame->notes.said, GN_NOTICE_PLANES, warnings))
+    if (frame->plane.shown < frame->plane.count && frame->scene->planes_named &&
+        has_planar_light(frame) && gn_frame_notice(&frame->notes.said, GN_NOTICE_PLANES, warnings))
         gn_warn(warnings, "planar shadows are on %u of %u planes: %s", frame->plane.shown,
                 frame->plane.count,
                 frame->plan.stencil ? "the stencil has one" : "there are too many lights for more");

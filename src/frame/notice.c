@@ -41,6 +41,8 @@ void gn_frame_renew_notices(struct gn_frame *frame, const struct gn_frame_opts *
         opts->output_float,
         opts->output_linear,
         opts->msaa,
+        opts->tone,
+        opts->background,
         opts->shadow.planar_in_stencil,
         opts->shadow.moments,
         opts->shadow.map_px,

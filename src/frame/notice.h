@@ -21,8 +21,10 @@ enum gn_notice {
     GN_NOTICE_MAPS_MB,
     GN_NOTICE_TRIANGLES,
     GN_NOTICE_PLANES,
+    GN_NOTICE_TONE,
+    GN_NOTICE_TRANSPARENT,
 };
-enum { GN_NOTICE_ABOUT = 12 }; /* options that a warning may be about */
+enum { GN_NOTICE_ABOUT = 14 }; /* options that a warning may be about */
 
 struct gn_frame;
 struct gn_frame_opts;

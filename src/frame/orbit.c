@@ -22,23 +22,25 @@ struct stand {
     float distance_m, radius_m;
 };
 
-static struct stand stand_of(const struct gn_pose *pose, uint32_t camera) {
+static struct stand stand_of(const struct gn_pose *pose, const struct gn_framing *framing) {
     const struct gn_box *box = &pose->scene->box;
     struct stand s;
-    mat4 view;
     vec3 centre, to_centre;
-    gn_pose_view(pose, camera, view, s.eye_ws);
+    glm_vec3_copy((float *)framing->eye_ws, s.eye_ws);
     for (int k = 0; k < 3; k++) {
-        s.right[k] = view[k][0];
-        s.up[k] = view[k][1];
-        s.back[k] = view[k][2];
+        s.right[k] = framing->view_from_world[k][0];
+        s.up[k] = framing->view_from_world[k][1];
+        s.back[k] = framing->view_from_world[k][2];
     }
     glm_vec3_center((float *)box->min, (float *)box->max, centre);
     glm_vec3_sub(centre, s.eye_ws, to_centre);
     s.radius_m = 0.5f * glm_vec3_distance((float *)box->min, (float *)box->max);
     s.distance_m = -glm_vec3_dot(to_centre, s.back);
-    if (s.distance_m < 0.05f * s.radius_m) s.distance_m = s.radius_m; /* it looks elsewhere */
-    s.distance_m = fmaxf(s.distance_m, nearest_m(&pose->scene->cameras[camera]));
+    if (framing->distance_m > 0.0f)
+        s.distance_m = framing->distance_m;
+    else if (s.distance_m < 0.05f * s.radius_m)
+        s.distance_m = s.radius_m; /* it looks elsewhere */
+    s.distance_m = fmaxf(s.distance_m, nearest_m(&framing->camera));
     return s;
 }
 
@@ -54,22 +56,32 @@ static struct stand turn_stand(const struct stand *at, float yaw_rad, float pitc
 }
 
 struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbit_hand *hand,
-                              const struct gn_pose *pose, uint32_t camera) {
-    const struct gn_camera *c = &pose->scene->cameras[camera];
-    const struct stand s = stand_of(pose, camera);
+                              const struct gn_pose *pose, uint32_t camera,
+                              const struct gn_framing_opts *opts) {
+    struct gn_framing framing;
+    gn_framing_build(pose, camera, opts, &framing);
+    const struct gn_camera *c = &framing.camera;
+    const struct stand s = stand_of(pose, &framing);
     struct gn_orbit o = *orbit;
     o.yaw_rad = fmodf(o.yaw_rad - GLM_PIf * hand->turn[0], 2.0f * GLM_PIf);
     const float height_rad = asinf(glm_clamp(s.back[1], -1.0f, 1.0f));
-    o.pitch_rad =
-        glm_clamp(o.pitch_rad - GLM_PIf * hand->turn[1], fminf(-HIGHEST_RAD - height_rad, 0.0f),
-                  fmaxf(HIGHEST_RAD - height_rad, 0.0f));
-    const float most = c->orthographic ? LARGEST_ZOOM : logf(s.distance_m / nearest_m(c));
-    o.zoom = glm_clamp(o.zoom + hand->zoom, FARTHEST_ZOOM, fmaxf(most, 0.0f));
+    /* limits, within which the camera itself always is */
+    const float high = opts->phi_min_rad > 0.0f ? GLM_PI_2f - opts->phi_min_rad : HIGHEST_RAD;
+    const float low = opts->phi_max_rad > 0.0f ? GLM_PI_2f - opts->phi_max_rad : -HIGHEST_RAD;
+    o.pitch_rad = glm_clamp(o.pitch_rad - GLM_PIf * hand->turn[1],
+                            fminf(fmaxf(low, -HIGHEST_RAD) - height_rad, 0.0f),
+                            fmaxf(fminf(high, HIGHEST_RAD) - height_rad, 0.0f));
+    float most = c->orthographic ? LARGEST_ZOOM : logf(s.distance_m / nearest_m(c));
+    float least = FARTHEST_ZOOM;
+    if (opts->distance_min_m > 0.0f) most = fminf(most, logf(s.distance_m / opts->distance_min_m));
+    if (opts->distance_max_m > 0.0f)
+        least = fmaxf(least, logf(s.distance_m / opts->distance_max_m));
+    o.zoom = glm_clamp(o.zoom + hand->zoom, fminf(least, 0.0f), fmaxf(most, 0.0f));
 
     /* A pan moves the point looked at with the pointer: by a share of the height seen there. */
     const struct stand now = turn_stand(&s, o.yaw_rad, o.pitch_rad);
     float half[2];
-    gn_orbit_ortho_half(&o, c, hand->aspect > 0.0f ? hand->aspect : 1.0f, half);
+    gn_orbit_ortho_half(&o, c, opts->aspect > 0.0f ? opts->aspect : 1.0f, half);
     const float height_m = c->orthographic
                                ? 2.0f * half[1]
                                : 2.0f * s.distance_m * expf(-o.zoom) * tanf(0.5f * c->yfov_rad);
@@ -82,13 +94,15 @@ struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbi
 }
 
 float gn_orbit_view(const struct gn_orbit *orbit, const struct gn_pose *pose, uint32_t camera,
-                    mat4 view_from_world, vec3 eye_ws) {
-    const bool ortho = pose->scene->cameras[camera].orthographic;
-    const struct stand s = stand_of(pose, camera);
-    const float distance_m = ortho ? s.distance_m : s.distance_m * expf(-orbit->zoom);
-    gn_pose_view(pose, camera, view_from_world, eye_ws);
+                    const struct gn_framing_opts *opts, struct gn_framing *framing) {
+    gn_framing_build(pose, camera, opts, framing);
+    const struct stand s = stand_of(pose, framing);
+    const float distance_m =
+        framing->camera.orthographic ? s.distance_m : s.distance_m * expf(-orbit->zoom);
     if (gn_orbit_is_zero(orbit)) return distance_m;
     const struct stand now = turn_stand(&s, orbit->yaw_rad, orbit->pitch_rad);
+    vec4 *view_from_world = framing->view_from_world;
+    float *eye_ws = framing->eye_ws;
     glm_vec3_add(eye_ws, (float *)orbit->shift_m, eye_ws);
     glm_vec3_muladds((float *)s.back, -s.distance_m, eye_ws);
     glm_vec3_muladds((float *)now.back, distance_m, eye_ws);

@@ -3,7 +3,7 @@
 #ifndef GN_FRAME_ORBIT_H
 #define GN_FRAME_ORBIT_H
 
-#include "scene/pose.h"
+#include "scene/framing.h"
 
 struct gn_orbit {             /* zeroed: as the camera stands */
     float yaw_rad, pitch_rad; /* the eye goes round what it looks at: to the right, and up */
@@ -13,19 +13,20 @@ struct gn_orbit {             /* zeroed: as the camera stands */
 struct gn_orbit_hand {     /* input by a pointer; zeroed: none */
     float turn[2], pan[2]; /* drags to the right and up, in heights of the picture */
     float zoom;            /* added to the orbit's */
-    float aspect;          /* of the picture */
 };
 
 bool gn_orbit_is_zero(const struct gn_orbit *orbit);
-/* The next orbit, for a camera of the scene at this pose. A pan moves the scene with the pointer;
- * dragging by the height of the picture turns it by 180 degrees. The camera stays between the
- * poles, not nearer than twice the near plane and not farther than 50 times its distance. */
+/* The next orbit, for a camera of the scene at this pose, in a picture of this shape. A pan moves
+ * the scene with the pointer; dragging by the height of the picture turns it by 180 degrees. The
+ * camera stays between the poles, not nearer than twice the near plane and not farther than 50
+ * times its distance. */
 struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbit_hand *hand,
-                              const struct gn_pose *pose, uint32_t camera);
-/* gn_pose_view() moved by it. It looks at the point on its axis at the distance of the scene's
+                              const struct gn_pose *pose, uint32_t camera,
+                              const struct gn_framing_opts *opts);
+/* gn_framing_build() moved by it. It looks at the point on its axis at the distance of the scene's
  * centre. Returns the distance in metres to that point. */
 float gn_orbit_view(const struct gn_orbit *orbit, const struct gn_pose *pose, uint32_t camera,
-                    mat4 view_from_world, vec3 eye_ws);
+                    const struct gn_framing_opts *opts, struct gn_framing *framing);
 /* The orthographic half-sizes in metres that show all of the camera's rectangle in a picture of
  * this aspect. */
 void gn_orbit_ortho_half(const struct gn_orbit *orbit, const struct gn_camera *camera, float aspect,

@@ -50,10 +50,6 @@ void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key
 
 /* ---- passes of the picture ---- */
 
-bool gn_frame_encodes_last(const struct gn_frame *frame) {
-    return frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_FLOAT;
-}
-
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label) {
     struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
     snprintf(pass->label, sizeof pass->label, "%s", label);
@@ -81,7 +77,8 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
     if (pass->picture.slide_count > 0) pass->constant_count = PASS_CASCADES;
     for (uint32_t i = 0; i < g->shadow_count; i++)
         if (frame->shadows[g->first_shadow + i].map.cascade_count > 0)
-            pass->constant_count = PASS_SIZE;
+            pass->constant_count = PASS_ENVIRONMENT;
+    if (group == 0 && frame->plan.environment.light) pass->constant_count = PASS_SIZE;
     if (group == 0) return pass;
     snprintf(pass->label, sizeof pass->label, "%s%slights %u-%u", label, *label ? " " : "",
              g->first + 1, g->first + g->count);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "blocks.glsl"
 #include "frame/private.h"
 
 static float srgb_from_linear(float c) {
@@ -22,41 +23,58 @@ static int by_depth(const void *a, const void *b) {
     return x->item < y->item ? -1 : 1;
 }
 
+/* One side of an item, or both at once, with the light of all groups. open: whether the last draw
+ * is one of the same batch, in a pass that is still open. */
+static void blend_item(struct gn_frame *frame, const struct gn_pose *pose,
+                       const struct gn_selection *seen, uint32_t item, bool *open) {
+    const struct gn_item *what = &frame->scene->items[item];
+    const struct gn_material *m = &frame->scene->materials[what->material];
+    gn_frame_draw_item(frame, pose, seen, item, open);
+    for (uint32_t k = 1; k < frame->group_count; k++) {
+        const struct gn_light_group *g = &frame->groups[k];
+        if (m->unlit || m->shadow_catcher || !g->seen ||
+            !gn_group_touches(g, &pose->items[item].box_ws))
+            continue;
+        struct gn_selection reached = *seen;
+        bool own = false;
+        reached.group = g;
+        gn_frame_end_pass(frame);
+        gn_frame_lit_pass(frame, "blend", k);
+        gn_frame_draw_item(frame, pose, &reached, item, &own);
+        *open = false;
+    }
+}
+
+static void begin_blend_pass(struct gn_frame *frame) {
+    struct gn_pass *blend = gn_frame_lit_pass(frame, "blend", 0);
+    blend->picture.blend = GN_BLEND_ALPHA;
+    blend->depth_write = false;
+}
+
+/* Farthest first; of an item that is seen from both sides, and is no plane, its back faces first.
+ */
 static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts) {
-    const struct gn_selection seen = {.opts = opts};
     const struct gn_placed *placed = frame->items.blended.at;
-    struct gn_pass *blend = NULL; /* of the first group, while it is open */
-    bool open = false;
+    bool in_pass = false, open = false;
     if (frame->items.blended.count == 0) return; /* the list may be NULL */
     qsort(frame->items.blended.at, frame->items.blended.count, sizeof *placed, by_depth);
     for (uint32_t i = 0; i < frame->items.blended.count; i++) {
         const uint32_t item = placed[i].item;
         const struct gn_item *what = &frame->scene->items[item];
-        open = blend && what->batch == frame->scene->items[placed[i - 1].item].batch;
-        if (!blend) {
-            blend = gn_frame_lit_pass(frame, "blend", 0);
-            blend->picture.blend = GN_BLEND_ALPHA;
-            blend->depth_write = false;
-        }
-        gn_frame_draw_item(frame, pose, &seen, item, &open);
-
-        /* the other groups' light; the pass ends where there is any */
-        for (uint32_t k = 1; k < frame->group_count; k++) {
-            const struct gn_light_group *g = &frame->groups[k];
-            if (frame->scene->materials[what->material].unlit || !g->seen ||
-                !gn_group_touches(g, &pose->items[item].box_ws))
-                continue;
-            struct gn_selection reached = {.group = g, .opts = opts};
-            bool own = false;
-            if (blend) gn_frame_end_pass(frame);
-            blend = NULL;
-            gn_frame_lit_pass(frame, "blend", k);
-            gn_frame_draw_item(frame, pose, &reached, item, &own);
-            gn_frame_end_pass(frame);
+        const bool two_sided = frame->scene->materials[what->material].double_sided &&
+                               !frame->scene->geometries[what->geometry].flat;
+        open = open && what->batch == frame->scene->items[placed[i - 1].item].batch;
+        for (int side = 0; side <= two_sided; side++) {
+            struct gn_selection seen = {.opts = opts, .blends = true};
+            if (two_sided) seen.cull = side ? GN_CULL_BACK : GN_CULL_FRONT;
+            if (!in_pass) begin_blend_pass(frame);
+            blend_item(frame, pose, &seen, item, &open);
+            in_pass = open;
+            if (!in_pass) gn_frame_end_pass(frame);
         }
     }
-    if (blend) gn_frame_end_pass(frame);
+    if (in_pass) gn_frame_end_pass(frame);
 }
 
 /* ---- further planes ---- */
@@ -81,6 +99,22 @@ static void add_further_planes(struct gn_frame *frame, const struct gn_pose *pos
 
 /* ---- all of them ---- */
 
+/* The last pass lays it over the background: that has no tone. */
+static bool draws_over_nothing(const struct gn_frame *frame) {
+    return frame->plan.tones_sum || frame->plan.transparent;
+}
+
+static void background_of(const struct gn_frame *frame, const struct gn_frame_opts *opts,
+                          vec3 color) {
+    const struct gn_scene_environment *e = &frame->scene->environment;
+    switch (opts->background) {
+    case GN_BACKGROUND_SCENE: glm_vec3_copy((float *)e->background, color); break;
+    case GN_BACKGROUND_SKY: glm_vec3_lerp((float *)e->sky, (float *)e->ground, 0.5f, color); break;
+    case GN_BACKGROUND_COLOR: glm_vec3_copy((float *)opts->background_color, color); break;
+    case GN_BACKGROUND_TRANSPARENT: glm_vec3_zero(color); break;
+    }
+}
+
 void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts) {
     static const float aov_clear[GN_AOV_COUNT] = {
@@ -93,12 +127,15 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
     struct gn_pass *pass = gn_frame_lit_pass(frame, aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
     const uint32_t first = pass->first_draw;
     pass->clear.area = GN_CLEAR_ALL;
-    for (int k = 0; k < 3; k++) {
-        const float color =
-            aov == GN_AOV_COLOR ? frame->scene->environment.background[k] : aov_clear[aov];
-        pass->clear.color[k] = encode ? srgb_from_linear(color) : color;
+    if (!draws_over_nothing(frame)) {
+        vec3 background;
+        background_of(frame, opts, background);
+        for (int k = 0; k < 3; k++) {
+            const float color = aov == GN_AOV_COLOR ? background[k] : aov_clear[aov];
+            pass->clear.color[k] = encode ? srgb_from_linear(color) : color;
+        }
+        pass->clear.color[3] = 1.0f;
     }
-    pass->clear.color[3] = 1.0f;
     frame->items.blended.count = 0;
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);
@@ -131,18 +168,25 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
         }
 }
 
-/* Encodes the linear picture where no target of the GPU does. */
+/* Makes a picture of bytes of the linear one: encodes it where no target of the GPU does, maps its
+ * tone. */
 void gn_frame_add_encode(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts) {
-    (void)pose, (void)opts;
-    if (!gn_frame_encodes_last(frame)) return;
+    (void)pose;
+    if (!frame->plan.finishes) return;
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_ENCODE;
+    if (frame->plan.tones_sum) key.features |= gn_frame_tone_feature(frame);
+    if (frame->plan.transparent) key.features |= GN_FEATURE(TRANSPARENT);
+    if (frame->plan.encode_srgb) key.features |= GN_FEATURE(ENCODE_SRGB);
+    float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_ENCODE);
+    background_of(frame, opts, c[ENCODE_BACKGROUND]);
     struct gn_pass *pass = gn_frame_picture_pass(frame, "encode");
     pass->target.kind = GN_TARGET_ENCODED;
     pass->depth_write = false;
-    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
+    pass->constants = c;
+    pass->constant_count = ENCODE_SIZE;
     gn_frame_draw_bare(frame, &key, 3, 0, 1);
     gn_frame_end_pass(frame);
 }

@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "caption/run.h"
+#include "environment/environment.h"
 #include "frame/caps.h"
 #include "frame/feature.h"
 #include "frame/program.h"
@@ -23,6 +24,14 @@
 #define GN_GROUPS_MAX      4  /* of lights that share a pass */
 #define GN_POINT_CONSTANTS 6  /* vec4 of a point of a lamp: PASS_CLIP to PASS_CODE_ADD */
 
+enum gn_tone {               /* what maps the picture's radiance to what a screen shows */
+               GN_TONE_AUTO, /* of options only */
+               GN_TONE_NONE,
+               GN_TONE_NEUTRAL,
+               GN_TONE_ACES,
+               GN_TONE_AGX,
+               GN_TONE_COUNT
+};
 enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, GN_AOV_COUNT };
 
 /* ---- programs: a variant is a key ---- */
@@ -225,9 +234,14 @@ struct gn_plan {
     uint32_t width_px, height_px;
     enum gn_output_format output;
     bool encode_srgb; /* sRGB wanted of a GPU without such a target: shaders encode, or, where
-                         output is FLOAT because passes add to it, the last pass does */
-    uint32_t msaa;    /* samples: 0, 2, 4 */
-    bool stencil;     /* the output has one */
+                         the picture is finished last, the last pass does */
+    bool finishes;    /* output is FLOAT, and a last pass makes a picture of bytes of it */
+    enum gn_output_format finished; /* the format of that: SRGB8, or LINEAR8 */
+    enum gn_tone tone;              /* never AUTO */
+    bool tones_sum;                 /* the last pass maps it */
+    bool transparent;               /* the last pass keeps alpha, and divides colours by it */
+    uint32_t msaa;                  /* samples: 0, 2, 4 */
+    bool stencil;                   /* the output has one */
     enum gn_aov aov;
     const struct gn_scene *scene;
     struct gn_pass *passes;
@@ -238,6 +252,10 @@ struct gn_plan {
     struct gn_shadow_view *shadows;  /* one per slot: a map each */
     const uint32_t *lights;          /* of the scene: the lights of the frame, group by group */
     const struct gn_caption_atlas *atlas; /* what captions read; NULL: there are none */
+    struct gn_plan_environment {
+        const struct gn_environment_light *light; /* what ENVIRONMENT programs read, or NULL */
+        uint64_t id;                              /* of its content */
+    } environment;
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the camera does not see */
     bool is_behind;  /* wants another frame: a filtered map is older than the pose (filter_texels),

@@ -12,6 +12,8 @@ static const char *const receivers[] = {[GN_RECEIVES_MAPS] = "",
                                         [GN_RECEIVES_ALL] = ", receives all"};
 static const char *const slides[GN_SLIDE_COUNT] = {
     [GN_SLIDE_NONE] = "", [GN_SLIDE_DARK] = "+slide", [GN_SLIDE_LIT] = "+film"};
+static const char *const tones[GN_TONE_COUNT] = {
+    [GN_TONE_NEUTRAL] = "neutral", [GN_TONE_ACES] = "aces", [GN_TONE_AGX] = "agx"};
 static const char *const culls[] = {
     [GN_CULL_NONE] = "none", [GN_CULL_BACK] = "back", [GN_CULL_FRONT] = "front"};
 
@@ -200,6 +202,8 @@ void gn_plan_print(const struct gn_plan *plan, FILE *to) {
     fprintf(to, "plan %u x %u, %s %s%s, msaa %u, exposure %.4g, %u items culled\n", plan->width_px,
             plan->height_px, aovs[plan->aov], outputs[plan->output],
             plan->stencil ? " + stencil" : "", plan->msaa, (double)plan->exposure, plan->culled);
+    if (plan->tone != GN_TONE_NONE)
+        fprintf(to, "tone %s%s\n", tones[plan->tone], plan->finishes ? ", by the last pass" : "");
     for (uint32_t i = 0; i < plan->program_count; i++) {
         fprintf(to, "program %u: ", i);
         print_key(&plan->programs[i], to);

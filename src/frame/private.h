@@ -21,6 +21,7 @@ struct gn_frame_light {
     enum gn_slide slide;
     bool slide_as_picture;
     float slide_far_m; /* 0: it does not end */
+    float color[3];    /* as in gn_light */
     float strength;
     float specular;    /* share of highlights that its shadow leaves */
     float illuminance; /* at the scene's centre, lux; the weakest are dropped over the limit */
@@ -64,6 +65,10 @@ struct gn_frame {
     const struct gn_scene *scene;
     struct gn_caps caps;
     bool has_middle; /* some item casts by its middle */
+    struct {
+        bool reflected_only; /* diffuse light is the hemispheres' */
+        bool scaled, turned;
+    } environment; /* of this frame */
     struct {
         GN_LIST(struct gn_light_note) lights; /* by the scene's lights */
         uint32_t said, about[GN_NOTICE_ABOUT];
@@ -117,7 +122,7 @@ struct gn_frame {
 };
 
 /* Room of the constants of one pass, in vec4. */
-enum { GN_PASS_SIZE = 118 };
+enum { GN_PASS_SIZE = 128 };
 /* Sets of a slot: a page of a tile each. */
 enum { GN_SLOT_SETS = GN_SHADOW_TILES_MAX * GN_SHADOW_PAGES_MAX };
 /* Index of a set of constants. */
@@ -141,6 +146,8 @@ struct gn_selection {
     bool backs;                         /* only the far sides of what casts by its middle */
     const struct gn_light_group *group; /* added: draws items in its reach; NULL: the first */
     enum gn_part part;                  /* not of a shadow pass */
+    bool blends;                        /* of blended items: what is not opaque */
+    enum gn_cull cull;                  /* of double-sided items: NONE: both sides */
     uint32_t plane; /* the same: only receivers of planar shadows on it; 0: all but those on further
                        planes */
     const struct gn_frame_opts *opts; /* never NULL */
@@ -159,8 +166,6 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
 /* Makes it one of items on a further plane, from 2: with the planar shadows on that. */
 void gn_frame_set_plane(struct gn_frame *frame, struct gn_pass *pass, uint32_t group,
                         uint32_t plane);
-/* Whether a last pass encodes the picture. */
-bool gn_frame_encodes_last(const struct gn_frame *frame);
 /* A draw of bare vertices. */
 void gn_frame_draw_bare(struct gn_frame *frame, const struct gn_program_key *key,
                         uint32_t vertex_count, uint32_t first_instance, uint32_t instance_count);
@@ -213,6 +218,14 @@ void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
 /* Where a rectangle of the picture is in the output. */
 struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect rect);
+
+/* ---- tone.c ---- */
+
+/* The plan's tone, when its groups of lights are known. */
+void gn_frame_choose_tone(struct gn_frame *frame, const struct gn_frame_opts *opts,
+                          struct gn_warnings *warnings);
+/* The feature of programs that map it; 0: none does. */
+uint64_t gn_frame_tone_feature(const struct gn_frame *frame);
 
 /* ---- lights.c, group.c, slides.c: which lights ---- */
 
@@ -300,6 +313,8 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                     const struct gn_shadow_view *view);
 /* The same caster, by its middle. */
 void gn_key_add_middle(const struct gn_shadow_view *view, struct gn_program_key *key);
+/* Of a blended item with opaque texels: these alone, as if it were masked, or the rest. */
+void gn_key_take_part(bool rest, struct gn_program_key *key);
 /* The program that adds a group's light to what `lit` draws. */
 struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,

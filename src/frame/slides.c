@@ -9,7 +9,9 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
     for (uint32_t i = 0; i < frame->light_count; i++)
         both += gn_techniques[frame->lights[i].technique].reads_both;
     if (both > GN_SHADOWS_MAX) both = GN_SHADOWS_MAX;
-    const uint32_t left = GN_SAMPLERS_MAX - GN_TEXTURE_SLOT_COUNT - GN_SHADOWS_MAX - both,
+    const uint32_t cube = frame->plan.environment.light ? 1 : 0;
+    const uint32_t left = GN_SAMPLERS_MAX - frame->scene->material_textures - GN_SHADOWS_MAX -
+                          both - cube,
                    most = left < GN_SLIDES_MAX ? left : GN_SLIDES_MAX;
     for (uint32_t i = 0; i < frame->light_count; i++) {
         struct gn_frame_light *light = &frame->lights[i];

@@ -35,18 +35,21 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
         gn_gl_text_add(out, "const bool %s = %s;\n", name, on ? "true" : "false");
         if (on) gn_gl_text_add(out, "#define WITH_%s 1\n", name);
     }
-    /* EACH_TEXTURE(F) calls F(v_uv_name, SLOT_NAME, NAME_UV1) for each row of scene/material.h. */
+    /* EACH_TEXTURE(F) calls F(v_uv_name, SLOT_NAME, NAME_UV1) for each row of scene/material.h that
+     * the program has. */
     const struct gn_texture_slot_row *rows = gn_texture_slots;
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
         gn_gl_text_add(out, "const int SLOT_%s = %d;\n", rows[i].glsl, i);
     gn_gl_text_add(out, "const int SLOT_COUNT = %d;\n", GN_TEXTURE_SLOT_COUNT);
     gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
-        gn_gl_text_add(out, " F(v_uv_%s, SLOT_%s, %s_UV1)", rows[i].name, rows[i].glsl,
-                       rows[i].glsl);
+        if (key->features >> (GN_FEATURE_FIRST_TEXTURE + i) & 1)
+            gn_gl_text_add(out, " F(v_uv_%s, SLOT_%s, %s_UV1)", rows[i].name, rows[i].glsl,
+                           rows[i].glsl);
     gn_gl_text_add(out, "\n");
 
     if (key->shadow_count) gn_gl_text_add(out, "#define WITH_SHADOWS 1\n");
+    gn_gl_text_add(out, "const float ENVIRONMENT_ROUGHEST = %d.0;\n", GN_ENVIRONMENT_LEVELS - 1);
     gn_gl_text_add(out, "const int LIGHT_COUNT = %d;\nconst int SHADOW_COUNT = %d;\n",
                    key->light_count, key->shadow_count);
     for (int i = 0; i < GN_LIGHT_TYPE_COUNT; i++)

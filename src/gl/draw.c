@@ -71,6 +71,8 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
                 gn_gl_bind_texture(gl, GN_GL_UNIT_MAP + i, codes->texture, nearest);
         }
     for (uint32_t i = 0; i < picture->slide_count; i++) gn_gl_slide_bind(gl, i, picture->slides[i]);
+    if (plan->environment.light)
+        gn_gl_bind_cube(gl, gl->environment.texture, gl->environment.sampler);
 }
 
 void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
@@ -90,10 +92,15 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
         const struct gn_texture_ref *refs = gl->scene.scene->materials[d->material].textures;
         for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
             if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, slot, &refs[slot]);
+    }
+    if (geometry && (program->u_uv >= 0 || program->u_factors >= 0)) {
         const uint32_t uv = gl->scene.material_uv[d->material];
-        if (program->uv != uv && program->u_uv >= 0) {
+        if (program->uv != uv) {
+            const float *set = gl->scene.uv[uv][0];
             program->uv = uv;
-            GL(gl, Uniform4fv)(program->u_uv, 2 * GN_TEXTURE_SLOT_COUNT, gl->scene.uv[uv][0]);
+            if (program->u_uv >= 0) GL(gl, Uniform4fv)(program->u_uv, GN_GL_TRANSFORMS, set);
+            if (program->u_factors >= 0)
+                GL(gl, Uniform4fv)(program->u_factors, GN_GL_FACTORS, set + 4 * GN_GL_TRANSFORMS);
         }
     }
     gn_gl_set_cull(gl, geometry ? d->cull : GN_CULL_NONE, geometry && d->mirrored);

@@ -17,7 +17,9 @@ static const char fade_fragment[] = "#version 300 es\n"
                                     "0).rgb * u_share.x, u_share.x);\n"
                                     "}\n";
 
-static bool is_srgb(const struct gn_gl_output *o) { return o->format == GN_OUTPUT_SRGB8; }
+static bool is_srgb(const struct gn_gl_output *o) {
+    return gn_gl_output_format(o) == GN_OUTPUT_SRGB8;
+}
 
 static bool fits(const struct gn_gl_kept *k, const struct gn_gl_output *o) {
     return k->framebuffer && k->width_px == o->width_px && k->height_px == o->height_px &&

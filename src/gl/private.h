@@ -30,6 +30,18 @@ bool gn_gl_atlas_ensure(struct gn_gl *gl, const struct gn_caption_atlas *atlas, 
 bool gn_gl_atlas_holds(const struct gn_gl *gl, const struct gn_caption_atlas *atlas);
 void gn_gl_atlas_finish(struct gn_gl *gl);
 
+/* ---- the environment (environment.c) ---- */
+
+struct gn_gl_environment {
+    GLuint texture, sampler;
+    uint64_t id; /* of its content; 0: none */
+};
+/* Uploads the cube of the plan's environment if it is another one; none is legal. */
+bool gn_gl_environment_ensure(struct gn_gl *gl, const struct gn_plan_environment *environment,
+                              struct gn_err *err);
+bool gn_gl_environment_holds(const struct gn_gl *gl, const struct gn_plan_environment *environment);
+void gn_gl_environment_finish(struct gn_gl *gl);
+
 /* ---- one pass (pass.c, draw.c) ---- */
 
 /* Binds the target and sets the state of a pass. area: what to clear, of pass->clear or less. */
@@ -103,6 +115,7 @@ struct gn_gl {
     struct gn_gl_targets targets;
     struct gn_gl_kept kept;
     struct gn_gl_atlas atlas;
+    struct gn_gl_environment environment;
     struct gn_gl_window window; /* width 0: none */
     struct {
         uint8_t *data; /* of gn_gl_read_xrgb8888() */

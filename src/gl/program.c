@@ -135,6 +135,7 @@ static void set_units(struct gn_gl *gl, struct gn_gl_program *program) {
     }
     for (int i = 0; i < GN_SLIDES_MAX; i++)
         set_unit(gl, program->name, slides[i], GN_GL_UNIT_SLIDE + i);
+    set_unit(gl, program->name, "u_environment", GN_GL_UNIT_ENVIRONMENT);
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
         if (set_unit(gl, program->name, textures[i], GN_GL_UNIT_TEXTURE + i))
             program->texture_slots |= 1u << i;
@@ -166,6 +167,7 @@ static struct gn_gl_program program_of(struct gn_gl *gl, const struct gn_program
         .key = *key, .name = name, .made = gl->programs.made, .uv = UINT32_MAX};
     p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
     p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
+    p.u_factors = GL(gl, GetUniformLocation)(name, "u_factors");
     p.attributes = active_attributes(gl, name);
     set_units(gl, &p);
     return p;

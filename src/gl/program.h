@@ -6,17 +6,17 @@
 
 struct gn_gl_program {
     struct gn_program_key key;
-    GLuint name;             /* 0: free slot, or dropped */
-    bool dropped;            /* it was there once */
-    bool kept;               /* see gn_gl_keep_programs() */
-    uint64_t bytes;          /* see gn_gl_program_took(); 0: unknown */
-    uint64_t made, used;     /* values of programs.made when it was made, of programs.runs when a
-                                plan with it last ran; 0: none has */
-    GLint u_pass, u_uv;      /* locations, or -1 */
-    uint32_t attributes;     /* bit per location that it reads */
-    uint32_t texture_slots;  /* bit per gn_texture_slot that it reads */
-    uint64_t constants_hash; /* of what u_pass holds; 0: nothing yet */
-    uint32_t uv;             /* which row of gl->scene.uv u_uv holds; UINT32_MAX: none yet */
+    GLuint name;         /* 0: free slot, or dropped */
+    bool dropped;        /* it was there once */
+    bool kept;           /* see gn_gl_keep_programs() */
+    uint64_t bytes;      /* see gn_gl_program_took(); 0: unknown */
+    uint64_t made, used; /* values of programs.made when it was made, of programs.runs when a
+                            plan with it last ran; 0: none has */
+    GLint u_pass, u_uv, u_factors; /* locations, or -1 */
+    uint32_t attributes;           /* bit per location that it reads */
+    uint32_t texture_slots;        /* bit per gn_texture_slot that it reads */
+    uint64_t constants_hash;       /* of what u_pass holds; 0: nothing yet */
+    uint32_t uv; /* which row of gl->scene.uv u_uv and u_factors hold; UINT32_MAX: none yet */
 };
 struct gn_gl_programs { /* open addressing, room is a power of two, at most half full */
     struct gn_gl_program *table;

@@ -49,6 +49,11 @@ struct gn_gl_upload {
     struct gn_gl_picture picture;
     bool no_memory; /* for a picture's smaller levels */
 };
+enum { /* vectors of a material in uniforms: u_uv, then u_factors (lib/vertex.glsl, lit.frag) */
+       GN_GL_TRANSFORMS = 2 * GN_TEXTURE_SLOT_COUNT,
+       GN_GL_FACTORS = 1,
+       GN_GL_UV_COUNT = GN_GL_TRANSFORMS + GN_GL_FACTORS,
+};
 struct gn_gl_scene {
     const struct gn_scene *scene;
     struct gn_gl_upload upload;
@@ -61,8 +66,8 @@ struct gn_gl_scene {
     uint32_t image_count;                   /* kept: the scene may be gone when we finish */
     GLuint *images[2];                      /* by image: linear, sRGB; 0 where not used so */
     GLuint samplers[GN_GL_SAMPLER_KINDS];
-    float (*uv)[2 * GN_TEXTURE_SLOT_COUNT][4]; /* different sets of transforms */
-    uint32_t *material_uv;                     /* by material: index into uv */
+    float (*uv)[GN_GL_UV_COUNT][4]; /* different sets of transforms and factors */
+    uint32_t *material_uv;          /* by material: index into uv */
     uint32_t uv_count;
     uint64_t buffer_bytes, texture_bytes;
     struct gn_gl_vertices vertices[GN_GL_VERTICES_MAX];

@@ -22,24 +22,41 @@ void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name) {
     GL(gl, BindBuffer)(GL_ARRAY_BUFFER, name);
 }
 
-void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler) {
+static void bind_to(struct gn_gl *gl, GLenum target, GLuint unit, GLuint texture, GLuint sampler) {
     struct gn_gl_state *s = &gl->state;
     if (s->textures[unit] != texture) {
         if (s->unit != unit) GL(gl, ActiveTexture)(GL_TEXTURE0 + unit);
         s->unit = unit;
         s->textures[unit] = texture;
-        GL(gl, BindTexture)(GL_TEXTURE_2D, texture);
+        GL(gl, BindTexture)(target, texture);
     }
     if (s->samplers[unit] == sampler) return;
     s->samplers[unit] = sampler;
     GL(gl, BindSampler)(unit, sampler);
 }
 
+void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler) {
+    bind_to(gl, GL_TEXTURE_2D, unit, texture, sampler);
+}
+
+void gn_gl_bind_cube(struct gn_gl *gl, GLuint texture, GLuint sampler) {
+    bind_to(gl, GL_TEXTURE_CUBE_MAP, GN_GL_UNIT_ENVIRONMENT, texture, sampler);
+}
+
+static void activate_unit(struct gn_gl *gl, GLuint unit) {
+    if (gl->state.unit == unit) return;
+    gl->state.unit = unit;
+    GL(gl, ActiveTexture)(GL_TEXTURE0 + unit);
+}
+
 void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture) {
     gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, texture, 0);
-    if (gl->state.unit == GN_GL_UNIT_WORK) return;
-    gl->state.unit = GN_GL_UNIT_WORK;
-    GL(gl, ActiveTexture)(GL_TEXTURE0 + GN_GL_UNIT_WORK);
+    activate_unit(gl, GN_GL_UNIT_WORK);
+}
+
+void gn_gl_work_on_cube(struct gn_gl *gl, GLuint texture) {
+    gn_gl_bind_cube(gl, texture, 0);
+    activate_unit(gl, GN_GL_UNIT_ENVIRONMENT);
 }
 
 void gn_gl_use_program(struct gn_gl *gl, GLuint name) {

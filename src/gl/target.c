@@ -84,7 +84,7 @@ GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
 }
 
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output) {
-    return output->encodes ? GN_OUTPUT_LINEAR8 : output->format;
+    return output->encodes ? output->finished : output->format;
 }
 
 static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
@@ -109,7 +109,8 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
         if (!gn_gl_framebuffer_check(gl, "resolved output", err)) return false;
     }
     if (encoded && !o->window) {
-        o->encoded_color = make_renderbuffer(gl, GL_RGBA8, 0, o->width_px, o->height_px);
+        o->encoded_color =
+            make_renderbuffer(gl, output_formats[o->finished].format, 0, o->width_px, o->height_px);
         o->encoded = make_framebuffer(gl);
         attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->encoded_color);
         if (!gn_gl_framebuffer_check(gl, "encoded output", err)) return false;
@@ -122,7 +123,7 @@ static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
                           const struct gn_plan *plan, struct gn_err *err) {
     const bool fits_window =
         plan->width_px == gl->window.width_px && plan->height_px == gl->window.height_px &&
-        (gl->window.srgb ? plan->output == GN_OUTPUT_SRGB8 : plan->encode_srgb);
+        (gl->window.srgb ? plan->finished == GN_OUTPUT_SRGB8 : plan->encode_srgb);
     struct gn_gl_output wanted = {
         .width_px = pixel ? 1 : plan->width_px,
         .height_px = pixel ? 1 : plan->height_px,
@@ -130,13 +131,14 @@ static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
         .stencil = plan->stencil || gl->targets.wants_stencil,
         .msaa_wanted = plan->msaa,
         .window = !pixel && fits_window,
-        .encodes = plan->encode_srgb && plan->output == GN_OUTPUT_FLOAT,
+        .finished = plan->finished,
+        .encodes = plan->finishes,
         .made = true,
     };
     if (o->made && o->window == wanted.window && o->width_px == wanted.width_px &&
         o->height_px == wanted.height_px && o->format == wanted.format &&
         o->msaa_wanted == wanted.msaa_wanted && o->stencil == wanted.stencil &&
-        o->encodes == wanted.encodes)
+        o->encodes == wanted.encodes && o->finished == wanted.finished)
         return true;
     output_finish(gl, o);
     if (plan->msaa > 1 && plan->output != GN_OUTPUT_AOV && gl->caps.has & 1u << GN_CAP_MSAA4) {

@@ -9,11 +9,12 @@ struct gn_gl_output {
     enum gn_output_format format;
     bool made;
     bool window;  /* the finished picture goes to the display's framebuffer (name 0) */
-    bool encodes; /* a last pass encodes */
+    bool encodes; /* a last pass makes a picture of bytes of it */
+    enum gn_output_format finished;
     bool stencil; /* beside the depth, in `depth` */
     GLuint framebuffer, color, depth;
     GLuint resolved, resolved_color; /* without msaa the same as framebuffer, and 0 */
-    /* When a last pass encodes: the linear picture as a texture, and the encoded result. */
+    /* With such a pass: the linear picture as a texture, and the result, in that format. */
     GLuint texture, encoded, encoded_color;
     uint64_t bytes;
 };

@@ -143,9 +143,15 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
     for (uint32_t i = 0; i < scene->material_count; i++) {
         for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
             const float *m = scene->materials[i].textures[slot].uv_from_uv;
-            const float both[8] = {m[0], m[2], m[4], 0, m[1], m[3], m[5], 0};
+            const bool scaled =
+                slot == GN_TEXTURE_NORMAL && scene->materials[i].textures[slot].texture >= 0;
+            const float scale = scaled ? scene->materials[i].normal_scale : 0.0f;
+            const float both[8] = {m[0], m[2], m[4], scale, m[1], m[3], m[5], 0};
             memcpy(s->uv[s->uv_count][2 * slot], both, sizeof both);
         }
+        float *factors = s->uv[s->uv_count][GN_GL_TRANSFORMS];
+        memcpy(factors, scene->materials[i].f0, sizeof(vec3));
+        factors[3] = scene->materials[i].lightmap_intensity;
         uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
         while (same < s->uv_count && memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0)
             same++;

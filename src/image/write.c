@@ -44,8 +44,8 @@ static void append_bytes(png_structp png, png_bytep data, png_size_t size) {
 static void no_flush(png_structp png) { (void)png; }
 static void ignore_warning(png_structp png, png_const_charp text) { (void)png, (void)text; }
 
-/* rows: bit depth 8 RGB or 16 grey, big-endian, tightly packed. libpng can fail here only for lack
- * of memory for its small tables: it aborts. */
+/* rows: bit depth 8 RGB or RGBA, or 16 grey, big-endian, tightly packed. libpng can fail here only
+ * for lack of memory for its small tables: it aborts. */
 static struct buffer encode_png(const uint8_t *rows, int color_type, int depth, size_t stride,
                                 int width_px, int height_px, bool srgb) {
     struct buffer buffer = {0};
@@ -93,6 +93,12 @@ bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, 
                         srgb, err);
     free(rgb);
     return ok;
+}
+
+bool gn_picture_write_png8_alpha(const char *path, const uint8_t *rgba, int width_px, int height_px,
+                                 bool srgb, struct gn_err *err) {
+    return write_png(path, rgba, PNG_COLOR_TYPE_RGB_ALPHA, 8, (size_t)width_px * 4, width_px,
+                     height_px, srgb, err);
 }
 
 bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px,

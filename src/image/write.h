@@ -21,7 +21,10 @@ void *gn_picture_alloc(size_t pixels, size_t bytes, struct gn_err *err);
 /* All take the top row first. srgb: marks the values as sRGB-encoded. */
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,
                            bool srgb, struct gn_err *err);
-/* The same from RGB, sRGB-encoded, into memory; gn_bytes_finish() frees it also after a failure.
+/* The same with straight alpha. */
+bool gn_picture_write_png8_alpha(const char *path, const uint8_t *rgba, int width_px, int height_px,
+                                 bool srgb, struct gn_err *err);
+/* From RGB, sRGB-encoded, into memory; gn_bytes_finish() frees it also after a failure.
  * May run in any thread. */
 bool gn_picture_encode_png8(const uint8_t *rgb, int width_px, int height_px, struct gn_bytes *out,
                             struct gn_err *err);

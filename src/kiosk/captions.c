@@ -66,6 +66,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
     const struct gn_info info = {
         .scene = scene_name(s, view->scene),
         .mode = s->modes.names[view->mode],
+        .missing = s->stage.scene ? s->stage.scene->missing : NULL,
         .screen = &s->stage.display.screen,
         .caps = gn_gl_caps(s->stage.gl),
         .uptime_ns = now_ns - s->counts.begun_ns,

@@ -89,6 +89,7 @@ bool gn_info_page_step(struct gn_info_page *page, const struct gn_info *info, in
     add_line(page, "gnomon %s", GN_VERSION);
     if (info->mode) add_line(page, "Mode: %.60s", info->mode);
     if (info->scene) add_line(page, "Scene: %.200s", info->scene);
+    if (info->missing && info->missing[0]) add_line(page, "Shown without: %.200s", info->missing);
     if (info->screen) add_screen(page, info->screen, now_ns);
     if (info->caps) {
         add_line(page, "GPU: %s", info->caps->renderer);

@@ -5,8 +5,8 @@
 #include "display/display.h"
 #include "frame/caps.h"
 
-struct gn_info { /* a field that is NULL or zero gets no line */
-    const char *scene, *mode;
+struct gn_info {                        /* a field that is NULL or zero gets no line */
+    const char *scene, *mode, *missing; /* missing: what the scene is shown without */
     const struct gn_screen *screen;
     const struct gn_caps *caps;
     int64_t uptime_ns; /* of this program */

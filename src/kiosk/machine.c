@@ -189,6 +189,8 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
     switch (event->kind) {
     case GN_KIOSK_ACTION: apply_action(rules, &next, event); break;
     case GN_KIOSK_FRAME:
+        if (next.seen_ns == 0 && rules->names_first && !next.caption)
+            set_caption(&next, GN_KIOSK_CAPTION_MODE, event->time_ns);
         if (!next.paused && next.seen_ns != 0) next.scene_ns += event->time_ns - next.seen_ns;
         next.seen_ns = event->time_ns;
         break;

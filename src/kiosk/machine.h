@@ -23,6 +23,7 @@ struct gn_kiosk_rules {                    /* zero means the default written bes
     int64_t idle_after_ns; /* 0: never */
     int64_t fade_ns;       /* how long, from the old picture to the new; 0: at once */
     int64_t caption_ns;    /* how long; 0: no captions */
+    bool names_first;      /* the first picture has a caption, too */
 };
 
 enum gn_kiosk_caption {

@@ -62,6 +62,7 @@ void gn_show_take_rules(struct gn_show *s) {
     s->rules.idle_after_ns = o->kiosk.idle_after_ns;
     s->rules.fade_ns = o->kiosk.fade_ns;
     s->rules.caption_ns = o->kiosk.captions ? o->kiosk.caption_ns : 0;
+    s->rules.names_first = s->config.options->is_lesson;
 }
 
 void gn_show_list_modes(struct gn_show *s) {

@@ -18,11 +18,13 @@ bool gn_show_pointer_turn(struct gn_stage *stage, const struct gn_pointer *p) {
                        p->pan[1] != 0.0f || p->wheel != 0.0f;
     if (screen->width_px == 0 || screen->height_px == 0 || !moved) return false;
     const float aspect = (float)screen->width_px / (float)screen->height_px;
-    struct gn_orbit_hand moves = {.zoom = NOTCH * p->wheel,
-                                  .aspect = screen->rotate_deg / 90 % 2 ? 1.0f / aspect : aspect};
+    struct gn_orbit_hand moves = {.zoom = NOTCH * p->wheel};
+    struct gn_framing_opts framing = f->view.framing;
+    framing.aspect = screen->rotate_deg / 90 % 2 ? 1.0f / aspect : aspect;
     turn_back(screen, p->turn, moves.turn);
     turn_back(screen, p->pan, moves.pan);
     if (p->home) f->view.orbit = (struct gn_orbit){0};
-    f->view.orbit = gn_orbit_step(&f->view.orbit, &moves, &stage->pose, (uint32_t)f->view.camera);
+    f->view.orbit =
+        gn_orbit_step(&f->view.orbit, &moves, &stage->pose, (uint32_t)f->view.camera, &framing);
     return true;
 }

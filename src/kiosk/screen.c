@@ -54,10 +54,7 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     f->height_px = screen->height_px;
     f->turn_deg = screen->rotate_deg;
     const bool unencoded = direct && !screen->srgb;
-    const struct gn_settings *o = s->stage.settings;
-    const uint32_t msaa = gn_settings_given(o, render.msaa) ? (uint32_t)o->render.msaa
-                          : gn_gl_caps(s->stage.gl)->tiler  ? 4 /* nearly free on such GPUs */
-                                                            : 0;
+    const uint32_t msaa = gn_stage_msaa(&s->stage, f->width_px, f->height_px, false);
     if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* other programs */
         gn_show_unready(s);
     }

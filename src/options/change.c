@@ -99,6 +99,10 @@ bool gn_changes_set(struct gn_changes *changes, const struct gn_option_row *row,
     const struct gn_options *options = changes->options;
     if (row->change != GN_CHANGE_LIVE)
         return gn_fail_usage(err, "%s %s", row->name, why_fixed[row->change]);
+    /* whoever may use the socket would choose files that the kiosk opens with its rights */
+    if (row->kind == GN_KIND_PATH && !gn_option_has_choice(row, text))
+        return gn_fail_usage(err, "%s: only a word can be set, no file: a file %s", row->name,
+                             why_fixed[GN_CHANGE_RELOAD]);
     struct change *change = &changes->rows[row - gn_option_rows];
     struct gn_arena *place = &change->places[!change->now];
     _Alignas(16) char value[sizeof(struct gn_limits)] = {0};

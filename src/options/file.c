@@ -35,7 +35,7 @@ struct load {
     struct gn_light_section *lights;
     struct gn_override **first; /* in a mode's or a light's section: its settings; else NULL */
     struct gn_override **link;  /* where its next setting goes */
-    bool in_mode, in_button;    /* what the section is of */
+    bool in_mode, in_light, in_button; /* what the section is of; of a light with a name */
     struct gn_config_buttons buttons;
     int lines[GN_OPTION_COUNT]; /* where each was set outside of modes */
 };
@@ -62,8 +62,6 @@ static bool open_mode(struct load *load, const struct gn_ini_line *line, struct 
 static bool open_light(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
     struct gn_settings *all = &load->options->all[0];
     struct gn_arena *arena = &load->options->arena;
-    if (!line->name)
-        return gn_fail_usage(err, "%s: a light has a name: [light \"NAME\"]", line->where);
     for (int i = 0; i < all->light_count; i++)
         if (strcmp(load->lights[i].name, line->name) == 0)
             return gn_fail_usage(err, "%s: light \"%s\" is there already, in line %d", line->where,
@@ -83,14 +81,15 @@ static bool open_light(struct load *load, const struct gn_ini_line *line, struct
 }
 
 static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    static const char *const plain[] = {"display", "scene", "render", "kiosk"};
+    static const char *const plain[] = {"display", "scene", "render", "camera", "light", "kiosk"};
     struct gn_options *options = load->options;
     struct gn_config_buttons *buttons = &load->buttons;
     load->first = NULL;
     load->in_mode = strcmp(line->section, "mode") == 0;
     load->in_button = strcmp(line->section, "button") == 0;
     if (load->in_mode) return open_mode(load, line, err);
-    if (strcmp(line->section, "light") == 0) return open_light(load, line, err);
+    load->in_light = line->name && strcmp(line->section, "light") == 0;
+    if (load->in_light) return open_light(load, line, err);
     if (load->in_button) {
         buttons->arena = &options->arena;
         if (!buttons->buttons)
@@ -105,7 +104,7 @@ static bool open_section(struct load *load, const struct gn_ini_line *line, stru
                    gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
     return gn_fail_usage(err,
                          "%s: unknown section [%s]; expected [display], [scene], [render], "
-                         "[kiosk], [mode \"NAME\"], "
+                         "[camera], [light], [kiosk], [mode \"NAME\"], "
                          "[light \"NAME\"] or [button \"NAME\"]",
                          line->where, line->section);
 }
@@ -119,7 +118,11 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
     for (int i = 0; i < GN_OPTION_COUNT && used < sizeof keys; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];
         gn_option_key(row, key, sizeof key);
-        if (!row->section || gn_option_find_key(section, key) != row) continue;
+        if (gn_option_find_key(section, key) != row) { /* its whole name, if that may be there */
+            const struct gn_option_row whole = {.name = row->name};
+            gn_option_key(&whole, key, sizeof key);
+            if (gn_option_find_key(section, key) != row) continue;
+        }
         gn_text_guess(&guess, line->key, key);
         if (guess.name == key) {
             snprintf(near, sizeof near, "%s", key);
@@ -152,7 +155,9 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     struct load *load = user;
     if (!line->key) return open_section(load, line, err);
     if (load->in_button) return gn_config_button_set(&load->buttons, line, err);
-    const char *section = load->in_mode ? NULL : line->section;
+    const char *section = load->in_mode    ? NULL
+                          : load->in_light ? GN_SECTION_ONE_LIGHT
+                                           : line->section;
     const struct gn_option_row *row = gn_option_find_key(section, line->key);
     if (!row) return fail_key(line, section, err);
     if (line_before(load, row))
@@ -163,7 +168,7 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     /* relative paths begin at the folder of the file */
     const char *text = line->value, *slash = strrchr(load->path, '/');
     if ((row->kind == GN_KIND_PATH || row->kind == GN_KIND_SCENES) && text[0] && text[0] != '/' &&
-        slash) {
+        slash && !gn_option_has_choice(row, text)) {
         snprintf(path, sizeof path, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
         text = path;
     }

@@ -84,6 +84,7 @@ bool gn_lesson_load(struct gn_options *options, const struct gn_lesson *lesson,
         used += (size_t)snprintf(text + used, sizeof text - used, "[mode \"%s\"]\n%s\n",
                                  lesson->steps[i].name, set ? set : "");
     }
+    options->is_lesson = true;
     snprintf(name, sizeof name, "lesson %s", lesson->name);
     return gn_config_load_text(options, name, text, used < sizeof text ? used : sizeof text - 1,
                                err);

@@ -24,7 +24,7 @@ struct gn_figure_row {
 };
 extern const struct gn_figure_row gn_figures[GN_FIGURE_COUNT];
 
-enum { GN_LESSON_STEPS_MAX = 6 };
+enum { GN_LESSON_STEPS_MAX = 8 };
 struct gn_lesson_step {
     const char *name;     /* NULL: no more steps. At most 48 characters: a mode's name */
     const char *set;      /* what it changes: lines of [mode] in kiosk.ini; NULL: nothing */

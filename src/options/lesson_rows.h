@@ -61,13 +61,15 @@ LESSON(.name = "second-depth", .title = "Second depth and midpoint maps", .scene
 
 /* filters */
 LESSON(.name = "pcf", .title = "Percentage closer filtering: wider filters, softer edges", .scene = "lattice", .set = "map = 256",
-       .teaches = "One comparison for each pixel shows the texels of the map as steps. Filters compare first and average then: the mean of distances would be the distance of nothing. The wider the filter, the nearer its edge comes to the penumbra of this lattice, which has the same width everywhere.",
+       .teaches = "One comparison for each pixel shows the texels of the map as steps. Filters compare first and average then: the mean of distances would be the distance of nothing. The wider the filter, the nearer its edge comes to the penumbra of this lattice, which has the same width everywhere; a filter wider than the penumbra is wrong again.",
        .steps = {FAULT(PENUMBRA, "one comparison (hard)", "shadow = hard"),
+                 FAULT(PENUMBRA, "too wide: a disk of 8 texels", "shadow = disk\nfilter_radius = 8"),
                  CURE("2x2 texels (pcf2)", "shadow = pcf2"),
                  CURE("3x3 texels (pcf)", "shadow = pcf"),
                  CURE("3x3 with equal weights (box3)", "shadow = box3"),
                  CURE("1 2 1, squared (pcf3)", "shadow = pcf3"),
-                 CURE("1 3 4 3 1, squared (pcf5)", "shadow = pcf5")})
+                 CURE("1 3 4 3 1, squared (pcf5)", "shadow = pcf5"),
+                 CURE("a disk of 3 texels", "shadow = disk\nfilter_radius = 3")})
 LESSON(.name = "soft", .title = "Penumbrae grow with the distance from the caster", .scene = "lean",
        .teaches = "A lamp with a size gives a shadow that is sharp at the foot of its caster and soft far from it. A filter of one width is wrong at one of them. Soft techniques first find how far away the caster is and then filter as wide as its penumbra.",
        .steps = {FAULT(PENUMBRA, "one width (pcf5)", "shadow = pcf5"),

@@ -23,6 +23,7 @@ struct gn_options {
 
     const struct gn_mode *modes; /* of the INI file, in its order */
     int mode_count;
+    bool is_lesson;                   /* the modes are its steps */
     const struct gn_buttons *buttons; /* of the INI file; NULL: it has none */
     const char *config_path;          /* the INI file that was read, or NULL */
     const char

@@ -14,6 +14,8 @@ GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
           .help = "do not animate", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "start at this time of the animation", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.time_ns))
+GN_OPTION(.name = "floor", .section = "scene", .kind = GN_KIND_LEVEL, .min = -1e6, .max = 1e6, .value = "auto|none|HEIGHT", .unit = "metres", .fallback = "auto",
+          .help = "an unseen floor that catches the shadows: under a model that stands on nothing (auto), or at a height", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.floor_m))
 GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
           .unit = "degrees per second", .fallback = "0",
           .help = "turn the camera around the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
@@ -21,7 +23,7 @@ GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min 
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
           .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
-          .help = "shadow technique; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow))
+          .help = "shadow technique, cone for a light made for a scene without any; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
           .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
@@ -54,8 +56,12 @@ GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .
           .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_as_picture))
 GN_OPTION(.name = "slide-far", .section = "render", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
           .help = "depth in the light's cone at which the picture of a slide ends, as the scene says (auto); 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_far_m))
-GN_OPTION(.name = "light-radius", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",
-          .help = "radius of the light made for a scene without any: tangent of its angular radius; in [light] of that one: metres, but a tangent of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.light_radius))
+GN_OPTION(.name = "environment", .section = "render", .kind = GN_KIND_PATH, .choices = environments, .value = "auto|studio|none|FILE.hdr", .fallback = "auto",
+          .help = "light from all directions: the studio inside the program, a Radiance picture, or none (auto)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment))
+GN_OPTION(.name = "environment-turn", .section = "render", .kind = GN_KIND_NUMBER, .min = -360, .max = 360, .value = "DEG", .unit = "degrees", .fallback = "0",
+          .help = "turn the environment about the vertical axis, counter-clockwise seen from above", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_turn_deg))
+GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "X", .fallback = "1",
+          .help = "factor on the environment's light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_strength))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
           .help = "draw a gizmo at each light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
 GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,
@@ -68,8 +74,12 @@ GN_OPTION(.name = "output", .section = "render", .kind = GN_KIND_CHOICE, .choice
           .help = "encoding of colour; linear is for measurement", .commands = BIT(RENDER) | BIT(BENCH), .offset = FIELD(render.output))
 GN_OPTION(.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -24, .max = 24, .value = "auto|EV", .unit = "stops",
           .fallback = "auto", .help = "exposure; at 0 radiance 1 is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.exposure_ev))
-GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "0",
-          .help = "multisampling; on a screen 4 is the default of tiling GPUs", .commands = DRAW, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
+GN_OPTION(.name = "tone", .section = "render", .kind = GN_KIND_CHOICE, .choices = tones, .value = "OPERATOR", .fallback = "auto",
+          .help = "tone mapping; auto: neutral for a scene without lights of its own, else none; never with --output linear, .pfm or --aov", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.tone))
+GN_OPTION(.name = "background", .section = "render", .kind = GN_KIND_COLOR, .choices = backgrounds, .value = "COLOUR", .fallback = "auto",
+          .help = "what is behind the scene: a colour #rrggbb; auto: gnomon_background, else sky; sky: the mean of gnomon_sky and gnomon_ground; transparent: .png files get straight alpha, screens black", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.background))
+GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "auto",
+          .help = "multisampling; auto: 4 in .png files, and on screens where the GPU keeps samples on its chip (tiling GPUs), if they take at most 256 MB; else 0, as in windows drawn by software, with --output linear, .pfm, --aov and --shadow truth", .commands = DRAW, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
@@ -78,6 +88,42 @@ GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value =
           .help = "do not use these GPU capabilities, named as doctor prints them", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
 GN_OPTION(.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
           .help = "limit on the size of a scene, or on the processor time that loading one may take; may be repeated", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
+/* the light made for a scene without any; those of_light are of any other too */
+GN_OPTION(.name = "light-azimuth", .key = "azimuth", .section = "light", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
+          .help = "where the made light comes from: 0 from the front (+Z), 90 from +X, as the scene stands; with --light-follow camera 0 from the camera, 90 from its right", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.azimuth_deg))
+GN_OPTION(.name = "light-elevation", .key = "elevation", .section = "light", .kind = GN_KIND_EV, .min = -90, .max = 90, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
+          .help = "height of the made light over the horizon: 90 from straight above", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.elevation_deg))
+GN_OPTION(.name = "light-follow", .key = "follow", .section = "light", .kind = GN_KIND_CHOICE, .choices = follows, .value = "WHAT", .fallback = "world",
+          .help = "what the made light stands still in: the scene, or the picture, so that it turns with the camera, also by a turntable or the mouse", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.follows_camera))
+GN_OPTION(.name = "light-color", .key = "color", .section = "light", .kind = GN_KIND_COLOR, .choices = light_colors, .value = "COLOUR", .fallback = "auto",
+          .help = "colour of the made light, #rrggbb; how bright it is does not count", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(light.color))
+GN_OPTION(.name = "light-lux", .key = "lux", .section = "light", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|LUX", .unit = "lux", .fallback = "auto",
+          .help = "illuminance by the made light; 2.8 by itself. With --exposure 0 a white surface that faces 3.14 lux is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.lux))
+GN_OPTION(.name = "light-radius", .key = "radius", .section = "light", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",
+          .help = "size of the made light, by which pcss, cone and other soft techniques draw penumbrae: tangent of its angular radius; of a light that is not directional: metres", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(light.radius))
+GN_OPTION(.name = "light-intensity", .key = "intensity", .kind = GN_KIND_EV, .max = 1e9, .value = "auto|X", .fallback = "auto",
+          .help = "intensity in the unit of the light, as in the file and as inspect prints it: candela, of a directional one lux", .of_light = true, .offset = FIELD(light.intensity))
+GN_OPTION(.name = "light-on", .key = "on", .kind = GN_KIND_FLAG, .fallback = "yes",
+          .help = "whether the light shines", .of_light = true, .offset = FIELD(light.on))
+/* the camera's place in place of its own; orbits are as in model-viewer */
+GN_OPTION(.name = "camera-theta", .key = "theta", .section = "camera", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
+          .help = "side from which the camera looks at its target: 0 from the front (+Z), 90 from +X; auto: as the camera stands", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.theta_deg))
+GN_OPTION(.name = "camera-phi", .key = "phi", .section = "camera", .kind = GN_KIND_EV, .max = 180, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
+          .help = "height from which the camera looks: 0 from straight above, 90 level; auto: as the camera stands", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.phi_deg))
+GN_OPTION(.name = "camera-distance", .key = "distance", .section = "camera", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
+          .help = "distance from the camera to its target; auto: as the camera stands, and an added one as near as it shows all", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.distance_m))
+GN_OPTION(.name = "camera-target", .key = "target", .section = "camera", .kind = GN_KIND_POINT, .min = -1e6, .max = 1e6, .value = "auto|X,Y,Z", .unit = "metres", .fallback = "auto",
+          .help = "point that the camera looks at; auto: that before it at the distance of the scene's centre", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.target_m))
+GN_OPTION(.name = "camera-fov", .key = "fov", .section = "camera", .kind = GN_KIND_EV, .min = 1, .max = 170, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
+          .help = "vertical field of view of a perspective camera; of one with an aspectRatio in a picture of that shape", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.fov_deg))
+GN_OPTION(.name = "camera-phi-min", .key = "phi_min", .section = "camera", .kind = GN_KIND_NUMBER, .max = 180, .value = "DEG", .unit = "degrees", .fallback = "0",
+          .help = "the mouse takes the camera no higher", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.phi_min_deg))
+GN_OPTION(.name = "camera-phi-max", .key = "phi_max", .section = "camera", .kind = GN_KIND_NUMBER, .max = 180, .value = "DEG", .unit = "degrees", .fallback = "180",
+          .help = "the mouse takes the camera no lower; 90: not below the horizon", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.phi_max_deg))
+GN_OPTION(.name = "camera-distance-min", .key = "distance_min", .section = "camera", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
+          .help = "the mouse takes the camera no nearer", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.distance_min_m))
+GN_OPTION(.name = "camera-distance-max", .key = "distance_max", .section = "camera", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
+          .help = "the mouse takes the camera no farther", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.distance_max_m))
 /* where it goes */
 GN_OPTION(.name = "backend", .section = "display", .kind = GN_KIND_WORD, .choices = backends, .value = "NAME", .fallback = "auto",
           .help = "display backend", .commands = DRAW | BIT(DOCTOR) | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.backend))

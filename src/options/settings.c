@@ -43,9 +43,9 @@ bool gn_settings_light_holds(const struct gn_settings *settings,
     const struct gn_technique_list *techniques = override->value;
     const bool casts_none =
         override->row->kind == GN_KIND_TECHNIQUES && techniques->items[0] == GN_TECHNIQUE_NONE;
-    const bool is_radius =
-        override->row->offset == offsetof(struct gn_settings, render.light_radius);
-    return casts_none || is_radius ||
+    const char *section = override->row->section;
+    const bool of_made_light = section && strcmp(section, "light") == 0;
+    return casts_none || of_made_light ||
            settings->source[index_of_row(override->row)] < GN_SOURCE_MODE;
 }
 

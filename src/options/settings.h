@@ -44,7 +44,9 @@ struct gn_technique_list { /* each once */
 #define GN_MAP_FORMAT(encoding, moments) ((int)(encoding) | (int)(moments) << 8)
 #define GN_MAP_FORMAT_ENCODING(format)   ((enum gn_encoding)((format)&0xff))
 #define GN_MAP_FORMAT_MOMENTS(format)    ((enum gn_moments)((format) >> 8))
-enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR }; /* --output */
+enum { GN_MSAA_AUTO = -1 };
+enum { GN_SHOW_SCENE = -1, GN_SHOW_TRANSPARENT = -2, GN_SHOW_SKY = -3 }; /* --background */
+enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR };                  /* --output */
 
 enum gn_source {
     GN_SOURCE_DEFAULT,
@@ -79,6 +81,7 @@ struct gn_scene_settings {
     bool no_animation;
     int64_t time_ns;
     double turntable_deg_s;
+    double floor_m; /* y of the shadow catcher; NAN: automatic, INFINITY: none */
 };
 enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
@@ -98,19 +101,35 @@ struct gn_render_settings {
     double slide_far_m;      /* NAN: as the scene says */
     int taps;
     bool taps_fixed;
-    double filter_budget;   /* million texels; 0: no limit */
-    double shadow_strength; /* set it overrides that of lights */
-    double shadow_specular; /* NAN: as the scene says */
-    double light_radius;    /* of a light made for a scene without any, as in gn_light */
+    double filter_budget;    /* million texels; 0: no limit */
+    double shadow_strength;  /* set it overrides that of lights */
+    double shadow_specular;  /* NAN: as the scene says */
+    const char *environment; /* "auto", "studio", "none" or a file; NULL: auto */
+    double environment_turn_deg, environment_strength;
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */
     enum gn_picture output;
     double exposure_ev; /* NAN: automatic */
-    int msaa;           /* samples: 0, 2 or 4 */
+    int tone;           /* enum gn_tone */
+    int background;     /* 0xRRGGBB, or below 0: as above */
+    int msaa;           /* samples: 0, 2 or 4; GN_MSAA_AUTO: see gn_stage_msaa() */
     const char *font;   /* file, for captions; NULL: the first usual one that exists */
     const char *shaders, *without;
     struct gn_limits limits;
+};
+struct gn_camera_settings { /* NAN: as the camera has it */
+    double theta_deg, phi_deg, distance_m, target_m[3], fov_deg;
+    double phi_min_deg, phi_max_deg, distance_min_m, distance_max_m; /* of what the user moves */
+};
+struct gn_light_settings {             /* of the light made for a scene without any */
+    double azimuth_deg, elevation_deg; /* of where it comes from; NAN: as it was made */
+    int follows_camera;                /* 0, 1: the azimuth is relative to the camera's */
+    int color;                         /* 0xRRGGBB, sRGB; -1: as it is */
+    double lux;                        /* NAN: as it is */
+    double radius;                     /* as in gn_light */
+    double intensity;                  /* only in sections of one light; NAN: as it is */
+    bool on;                           /* likewise */
 };
 struct gn_display_settings {
     const char *backend, *card, *render_node, *connector;
@@ -149,6 +168,8 @@ struct gn_settings {
     const char *mode; /* the name of their mode, or NULL */
     struct gn_scene_settings scene;
     struct gn_render_settings render;
+    struct gn_camera_settings camera;
+    struct gn_light_settings light;
     struct gn_display_settings display;
     struct gn_kiosk_settings kiosk;
     struct gn_run_settings run;
@@ -177,8 +198,8 @@ const char *gn_settings_label_at(const struct gn_settings *settings, size_t offs
 #define gn_settings_label(settings, field)                                                         \
     gn_settings_label_at(settings, offsetof(struct gn_settings, field))
 /* Whether a setting of a light section holds: it beats the scene and the sections without a name,
- * not a mode, a flag or `ctl set`. A light that is to cast no shadow (none) never does; the radius
- * of others is that of the made light (stage/lights.h). */
+ * not a mode, a flag or `ctl set`. A light that is to cast no shadow (none) never does; those of
+ * [light] are of the made light (stage/lights.h). */
 bool gn_settings_light_holds(const struct gn_settings *settings,
                              const struct gn_override *override);
 #define gn_settings_given(settings, field)                                                         \

@@ -39,17 +39,24 @@ static const struct gn_choice map_formats[] = {
     {"rg16f-bytes", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_CONE_BYTES)},
     {0},
 };
+static const struct gn_choice environments[] = {{"auto", 0}, {"studio", 0}, {"none", 0}, {0}};
 static const struct gn_choice aovs[] = {
     {"color", GN_AOV_COLOR},       {"visibility", GN_AOV_VISIBILITY},
     {"distance", GN_AOV_DISTANCE}, {"normal", GN_AOV_NORMAL},
     {"map", GN_AOV_COUNT},         {0}};
 static const struct gn_choice outputs[] = {
     {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
+static const struct gn_choice tones[] = {{"auto", GN_TONE_AUTO}, {"neutral", GN_TONE_NEUTRAL},
+                                         {"aces", GN_TONE_ACES}, {"agx", GN_TONE_AGX},
+                                         {"none", GN_TONE_NONE}, {0}};
+static const struct gn_choice backgrounds[] = {
+    {"auto", GN_SHOW_SCENE}, {"transparent", GN_SHOW_TRANSPARENT}, {"sky", GN_SHOW_SKY}, {0}};
 static const struct gn_choice planar_ways[] = {
     {"mask", GN_PLANAR_MASK}, {"stencil", GN_PLANAR_STENCIL}, {"soft", GN_PLANAR_SOFT}, {0}};
 static const struct gn_choice lamp_points[] = {{"16", 16},   {"32", 32},   {"64", 64},
                                                {"128", 128}, {"256", 256}, {0}};
-static const struct gn_choice samples[] = {{"0", 0}, {"2", 2}, {"4", 4}, {0}};
+static const struct gn_choice samples[] = {
+    {"auto", GN_MSAA_AUTO}, {"0", 0}, {"2", 2}, {"4", 4}, {0}};
 static const struct gn_choice tap_counts[] = {
     {"auto", 0}, {"4", 4},   {"8", 8},   {"12", 12}, {"16", 16}, {"20", 20},
     {"24", 24},  {"28", 28}, {"32", 32}, {"36", 36}, {"40", 40}, {"44", 44},
@@ -64,6 +71,8 @@ static const struct gn_choice cast_faces[] = {{"auto", 0},
                                               {0}};
 static const struct gn_choice map_ends[] = {{"far", 0}, {"near", 1}, {0}};
 static const struct gn_choice slide_aspects[] = {{"square", 0}, {"picture", 1}, {0}};
+static const struct gn_choice light_colors[] = {{"auto", -1}, {0}};
+static const struct gn_choice follows[] = {{"world", 0}, {"camera", 1}, {0}};
 static const struct gn_choice idles[] = {
     {"none", GN_IDLE_NONE}, {"first", GN_IDLE_FIRST}, {"next", GN_IDLE_NEXT}, {0}};
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
@@ -114,6 +123,12 @@ const struct gn_option_row *gn_option_find_letter(char letter) {
     return NULL;
 }
 
+bool gn_option_has_choice(const struct gn_option_row *row, const char *text) {
+    for (const struct gn_choice *choice = row->choices; choice && choice->name; choice++)
+        if (strcmp(choice->name, text) == 0) return true;
+    return false;
+}
+
 const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t size) {
     snprintf(buffer, size, "%s", row->key ? row->key : row->name);
     for (char *c = buffer; *c; c++)
@@ -122,16 +137,29 @@ const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t 
 }
 
 static bool is_of_section(const struct gn_option_row *row, const char *section) {
+    if (section && strcmp(section, GN_SECTION_ONE_LIGHT) == 0) return row->of_light;
     if (!row->section) return false;
     if (!section) return strcmp(row->section, "scene") == 0 || strcmp(row->section, "render") == 0;
-    return strcmp(section, "light") == 0 ? row->of_light : strcmp(row->section, section) == 0;
+    return strcmp(row->section, section) == 0;
+}
+
+/* Whether a row of [camera] or [light] may have its whole name there. */
+static bool may_have_name(const struct gn_option_row *row, const char *section) {
+    const char *own = row->section ? row->section : "";
+    if (strcmp(own, "light") != 0 && strcmp(own, "camera") != 0) return false;
+    return !section || strcmp(section, "render") == 0 || is_of_section(row, section);
 }
 
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key) {
     char buffer[64];
-    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++) {
         if (is_of_section(row, section) &&
             strcmp(gn_option_key(row, buffer, sizeof buffer), key) == 0)
             return row;
+        const struct gn_option_row whole = {.name = row->name};
+        if (may_have_name(row, section) &&
+            strcmp(gn_option_key(&whole, buffer, sizeof buffer), key) == 0)
+            return row;
+    }
     return NULL;
 }

@@ -34,14 +34,17 @@ enum gn_option_kind {
     GN_KIND_SIZE,       /* struct gn_size, each min..max */
     GN_KIND_MODE,       /* struct gn_display_mode: WxH or WxH@HZ, each side min..max */
     GN_KIND_EV,         /* double, min..max, or NAN for "auto" */
+    GN_KIND_LEVEL,      /* double, min..max, NAN for "auto", INFINITY for "none" */
     GN_KIND_CHOICE,     /* int: the value of a choice */
+    GN_KIND_COLOR,      /* int: the value of a choice, below 0, or 0xRRGGBB of "#rrggbb", sRGB */
     GN_KIND_WORD,       /* const char *: the name of a choice; another room knows what it means */
     GN_KIND_TECHNIQUES, /* struct gn_technique_list: names, a comma between two */
     GN_KIND_TEXT,       /* const char *: anything but nothing */
     GN_KIND_MODELINE,   /* const char *: a mode as X's configuration has it, without its name */
-    GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder */
+    GN_KIND_PATH,       /* const char *: in an INI file seen from the file's folder; or a choice */
     GN_KIND_SCENES,     /* struct gn_scene_list: a path, given again it adds */
     GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */
+    GN_KIND_POINT,      /* double[3], each min..max, or NAN for "auto"; "X,Y,Z" */
     GN_KIND_CAPS,       /* const char *: names of gn_cap, a comma between two */
     GN_KIND_COUNT,
 };
@@ -60,8 +63,8 @@ enum gn_change {                  /* when another value takes effect in a kiosk 
 struct gn_option_row {
     const char *name;    /* --name; the INI key has _ for - */
     const char *key;     /* INI key where it is another one, else NULL */
-    const char *section; /* of the INI file: "display", "scene", "render", "kiosk"; NULL: only a
-                            flag */
+    const char *section; /* of the INI file: "display", "scene", "render", "camera", "light",
+                            "kiosk"; NULL: only a flag, or a key of [light "NAME"] */
     char letter;         /* -x, or 0 */
     enum gn_option_kind kind;
     double min, max;
@@ -87,8 +90,12 @@ extern const struct gn_option_row gn_option_rows[GN_OPTION_COUNT];
 const struct gn_option_row *gn_option_find(const char *name,
                                            size_t length); /* by --name, or NULL */
 const struct gn_option_row *gn_option_find_letter(char letter);
-/* By INI section and key; NULL section: any of scene and render, as in [mode "NAME"]; "light": as
- * in [light "NAME"]. */
+/* Whether the text is one of its choices: of a path, a word in its place. */
+bool gn_option_has_choice(const struct gn_option_row *row, const char *text);
+/* By INI section and key; NULL section: any of scene and render, as in [mode "NAME"];
+ * GN_SECTION_ONE_LIGHT: as in [light "NAME"]. In [mode "NAME"], [render] and [light "NAME"] keys of
+ * [camera] and [light] also have the whole name of their option: light_azimuth. */
+#define GN_SECTION_ONE_LIGHT "light \"NAME\""
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key);
 const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t size);
 

@@ -51,6 +51,20 @@ static bool parse_number(const struct gn_option_row *row, const char *text, doub
     return true;
 }
 
+static bool parse_point(const struct gn_option_row *row, const char *text, double *field) {
+    char part[32];
+    double point[3] = {NAN, NAN, NAN};
+    for (int k = 0; k < 3 && strcmp(text, "auto") != 0; k++) {
+        const size_t length = strcspn(text, ",");
+        if (length >= sizeof part || (text[length] == ',') != (k < 2)) return false;
+        snprintf(part, sizeof part, "%.*s", (int)length, text);
+        if (!parse_number(row, part, &point[k])) return false;
+        text += length + (k < 2);
+    }
+    memcpy(field, point, sizeof point);
+    return true;
+}
+
 /* "WxH" at the start of text; *rest is what follows. */
 static bool parse_sides(const struct gn_option_row *row, const char *text, int *width, int *height,
                         const char **rest) {
@@ -67,6 +81,15 @@ static const struct gn_choice *find_choice(const struct gn_option_row *row, cons
     const struct gn_choice *choice = row->choices;
     while (choice->name && strcmp(choice->name, text) != 0) choice++;
     return choice->name ? choice : NULL;
+}
+
+static bool parse_color(const struct gn_option_row *row, const char *text, int *field) {
+    const struct gn_choice *choice = find_choice(row, text);
+    const bool is_code = text[0] == '#' && strlen(text) == 7 &&
+                         !text[1 + strspn(text + 1, "0123456789abcdefABCDEF")];
+    if (choice) *field = choice->value;
+    if (is_code) *field = (int)strtol(text + 1, NULL, 16);
+    return choice || is_code;
 }
 
 static bool parse_text(const char *text, const char **field, struct gn_arena *arena) {
@@ -139,14 +162,21 @@ static bool parse_value(const struct gn_option_row *row, const char *text, void 
             return false;
         *(struct gn_display_mode *)field = mode;
         return true;
+    case GN_KIND_POINT: return parse_point(row, text, field);
     case GN_KIND_EV:
         if (strcmp(text, "auto") != 0) return parse_number(row, text, field);
         *(double *)field = NAN;
+        return true;
+    case GN_KIND_LEVEL:
+        if (strcmp(text, "auto") != 0 && strcmp(text, "none") != 0)
+            return parse_number(row, text, field);
+        *(double *)field = text[0] == 'a' ? NAN : INFINITY;
         return true;
     case GN_KIND_CHOICE:
         choice = find_choice(row, text);
         if (choice) *(int *)field = choice->value;
         return choice;
+    case GN_KIND_COLOR: return parse_color(row, text, field);
     case GN_KIND_WORD:
         choice = find_choice(row, text);
         if (choice) *(const char **)field = choice->name;
@@ -210,7 +240,10 @@ static const struct {
     [GN_KIND_SIZE] = {sizeof(struct gn_size), false},
     [GN_KIND_MODE] = {sizeof(struct gn_display_mode), false},
     [GN_KIND_EV] = {sizeof(double), false},
+    [GN_KIND_POINT] = {3 * sizeof(double), false},
+    [GN_KIND_LEVEL] = {sizeof(double), false},
     [GN_KIND_CHOICE] = {sizeof(int), false},
+    [GN_KIND_COLOR] = {sizeof(int), false},
     [GN_KIND_WORD] = {sizeof(const char *), true},
     [GN_KIND_TECHNIQUES] = {sizeof(struct gn_technique_list), false},
     [GN_KIND_TEXT] = {sizeof(const char *), true},
@@ -246,10 +279,16 @@ void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) 
     case GN_KIND_MODE:
         snprintf(out, size, "WxH or WxH@HZ, each side from %.0f to %.0f", min, max);
         break;
+    case GN_KIND_POINT: snprintf(out, size, "auto or three numbers X,Y,Z"); break;
     case GN_KIND_EV: snprintf(out, size, "auto or a number from %.0f to %.0f", min, max); break;
+    case GN_KIND_LEVEL:
+        snprintf(out, size, "auto, none or a number from %.0f to %.0f", min, max);
+        break;
     case GN_KIND_CHOICE:
+    case GN_KIND_COLOR:
     case GN_KIND_WORD:
-        used = (size_t)snprintf(out, size, "one of");
+        used = (size_t)snprintf(out, size, "%s",
+                                row->kind == GN_KIND_COLOR ? "#rrggbb or one of" : "one of");
         for (const struct gn_choice *c = row->choices; c->name && used < size; c++)
             used += (size_t)snprintf(out + used, size - used, "%s %s", c == row->choices ? "" : ",",
                                      c->name);
@@ -300,8 +339,15 @@ void gn_value_text(const struct gn_option_row *row, const void *field, char *out
     const struct gn_display_mode *mode = field;
     const struct gn_size *sides = field;
     const struct gn_choice *choice = row->choices;
+    const double *point = field;
     const char *text;
     switch (row->kind) {
+    case GN_KIND_POINT:
+        if (isnan(point[0]))
+            snprintf(out, size, "auto");
+        else
+            snprintf(out, size, "%.9g,%.9g,%.9g", point[0], point[1], point[2]);
+        break;
     case GN_KIND_FLAG: snprintf(out, size, "%s", *(const bool *)field ? "yes" : "no"); break;
     case GN_KIND_INT: snprintf(out, size, "%d", *(const int *)field); break;
     case GN_KIND_NUMBER: snprintf(out, size, "%.9g", *(const double *)field); break;
@@ -316,12 +362,20 @@ void gn_value_text(const struct gn_option_row *row, const void *field, char *out
                      mode->height_px, mode->hz);
         break;
     case GN_KIND_EV:
+    case GN_KIND_LEVEL:
         if (isnan(*(const double *)field))
             snprintf(out, size, "auto");
+        else if (isinf(*(const double *)field))
+            snprintf(out, size, "none");
         else
             snprintf(out, size, "%.9g", *(const double *)field);
         break;
+    case GN_KIND_COLOR:
     case GN_KIND_CHOICE:
+        if (row->kind == GN_KIND_COLOR && *(const int *)field >= 0) {
+            snprintf(out, size, "#%06x", (unsigned)*(const int *)field);
+            break;
+        }
         while (choice->name && choice->value != *(const int *)field) choice++;
         snprintf(out, size, "%s", choice->name ? choice->name : "");
         break;

@@ -15,7 +15,9 @@
     X(POSITION, position, float, positions, "POSITION", 3, 3, ANY, FLOAT, 0)                       \
     X(NORMAL, normal, float, normals, "NORMAL", 3, 3, SIGNED, SNORM16, 0) /* made where missing */ \
     X(UV0, uv0, float, uv0, "TEXCOORD_0", 2, 2, ANY, FLOAT, 0)                                     \
-    X(UV1, uv1, float, uv1, "TEXCOORD_1", 2, 2, ANY, FLOAT, 0)
+    X(UV1, uv1, float, uv1, "TEXCOORD_1", 2, 2, ANY, FLOAT, 0)                                     \
+    X(TANGENT, tangent, float, tangents, "TANGENT", 4, 4, SIGNED, SNORM16, 0) /* as normal maps    \
+        need them: made where missing; w: the sign of the bitangent */
 
 /* The same, of those that are a feature of a program, VERTEX_NAME (frame/feature.h), where a
  * geometry has them. */

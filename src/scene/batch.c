@@ -2,13 +2,14 @@
  * materials that differ only in factors. */
 #include "scene/private.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* The properties of a material that select its program and state, as words to compare. */
 enum {
     SLOT_WORDS = 2 + 6,
-    FLAG_WORDS = 6,
+    FLAG_WORDS = 12,
     LOOK_WORDS = GN_TEXTURE_SLOT_COUNT * SLOT_WORDS + FLAG_WORDS
 };
 struct look {
@@ -40,9 +41,19 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
         *to++ = m->alpha;
         *to++ = m->double_sided;
         *to++ = m->unlit;
+        *to++ = m->shadow_catcher;
         *to++ = gn_material_is_specular(m) && !m->unlit;
         *to++ = gn_material_is_metal(m) && !m->unlit;
         *to++ = gn_material_is_emissive(m);
+        if (m->textures[GN_TEXTURE_NORMAL].texture >= 0) /* a uniform, beside the transforms */
+            memcpy(to, &m->normal_scale, sizeof m->normal_scale);
+        to++;
+        if (gn_material_has_f0(m)) memcpy(to, m->f0, sizeof m->f0); /* another */
+        to += 3;
+        if (m->textures[GN_TEXTURE_LIGHTMAP].texture >= 0)
+            memcpy(to, &m->lightmap_intensity, sizeof m->lightmap_intensity);
+        to++;
+        assert(to == looks[i].word + LOOK_WORDS);
     }
     qsort(looks, count, sizeof *looks, compare_looks);
     for (uint32_t i = 0; i < count; i++) {
@@ -74,7 +85,8 @@ bool gn_scene_batch(struct gn_gltf *g) {
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         uint32_t flags = (uint32_t)item->casts | (uint32_t)item->receives << 1 |
-                         (uint32_t)item->cast_faces << 2 | (uint32_t)item->plane << 8;
+                         (uint32_t)item->cast_faces << 2 | (uint32_t)item->plane << 8 |
+                         (uint32_t)item->casts_alpha << 16;
         keys[i] = (struct item_key){.part = {[KEY_ALPHA] = scene->materials[item->material].alpha,
                                              [KEY_LOOK] = looks[item->material],
                                              [KEY_GEOMETRY] = item->geometry,

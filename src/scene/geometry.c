@@ -1,12 +1,14 @@
 /* Fills the scene's vertices and indices from the accessors of each geometry. */
 #include "scene/private.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
+#define NORMALS_REPAIRED "normals without length; those of the faces are used"
 enum { CLOSED_CORNERS = 2 }; /* tested for being closed, for each vertex of the limit */
 
 /* The square of a larger number overflows a float. */
@@ -161,12 +163,48 @@ static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
 
 /* ---- geometries ---- */
 
-static bool fill_flat_geometry(struct gn_gltf *g, const struct gn_at *at,
-                               const struct gn_shape *shape, struct gn_geometry *geometry) {
-    struct gn_scene *scene = g->scene;
+/* The file's, of unit length; 0 where one has none. */
+static void normalize_normals(float *normals, size_t count, bool *lacking) {
+    for (size_t i = 0; i < count; i++) {
+        float *n = normals + 3 * i;
+        const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        const bool right = length > 1e-12f && length < 1e18f;
+        *lacking |= !right;
+        for (int k = 0; k < 3; k++) n[k] = right ? n[k] / length : 0;
+    }
+}
+
+/* A geometry with vertices of its own while it is made, in work memory. Each vertex is one of the
+ * file's accessors: source. */
+struct own {
+    uint32_t *corners, *source;
+    float *positions, *normals;
+    vec4 *tangents; /* or NULL */
+    size_t corner_count, count;
+};
+
+/* Renumbers the vertices in the order in which corners use them. */
+static bool compact_vertices(struct gn_gltf *g, size_t vertex_count, struct own *own) {
+    uint32_t *numbers = gn_gltf_alloc(g, &g->memory.step, vertex_count, sizeof *numbers);
+    own->source = gn_gltf_alloc(g, &g->memory.step, own->corner_count, sizeof *own->source);
+    if (g->failed) return false;
+    for (size_t i = 0; i < own->corner_count; i++) {
+        uint32_t *number = &numbers[own->corners[i]];
+        if (*number == 0) {
+            own->source[own->count++] = own->corners[i];
+            *number = (uint32_t)own->count;
+        }
+        own->corners[i] = *number - 1;
+    }
+    return true;
+}
+
+/* Those of the file's vertices that the triangles use, with their normals, or with flat ones. */
+static bool make_own(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
+                     struct own *own) {
     const struct gn_accessor *a = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION]);
     struct gather vertices = {.accessor = a, .count = a->count};
-    size_t count = 0, made = 0;
+    size_t count = 0;
     uint32_t *raw = read_corners(g, at, shape, &count), *used = NULL;
     if (!raw) return false;
     if (count < a->count && !number_used_vertices(g, raw, count, &used, &vertices.count))
@@ -174,26 +212,98 @@ static bool fill_flat_geometry(struct gn_gltf *g, const struct gn_at *at,
     vertices.source = used;
     const float *positions = read_floats(g, &vertices, 3);
     if (!positions) return false;
-    uint32_t *corners = scene->buffers.indices + geometry->first_index, *source = NULL;
-    float *normals = NULL;
-    count = unroll_triangles(g, at, shape, raw, positions, corners);
-    if (!gn_geometry_flat_normals(g, positions, corners, count, vertices.count, &source, &normals,
-                                  &made))
+    own->corner_count = unroll_triangles(g, at, shape, raw, positions, own->corners);
+    struct gather normals = {.accessor =
+                                 gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_NORMAL])};
+    if (normals.accessor
+            ? !compact_vertices(g, vertices.count, own)
+            : !gn_geometry_flat_normals(g, positions, own->corners, own->corner_count,
+                                        vertices.count, &own->source, &own->normals, &own->count))
         return false;
-    geometry->first_vertex = scene->buffers.vertex_count;
-    geometry->vertex_count = (uint32_t)made;
-    geometry->index_count = (uint32_t)count;
-    for (size_t i = 0; i < count; i++) corners[i] += geometry->first_vertex;
-    memcpy(scene->buffers.normals + 3 * (size_t)geometry->first_vertex, normals,
-           3 * made * sizeof *normals);
-    for (size_t i = 0; i < made; i++)
-        memcpy(scene->buffers.positions + 3 * (geometry->first_vertex + i),
-               positions + 3 * (size_t)source[i], 3 * sizeof *positions);
-    for (size_t i = 0; used && i < made; i++) source[i] = used[source[i]];
-    scene->buffers.vertex_count += geometry->vertex_count;
-    return put_other_attributes(
-        g, shape->attribute,
-        (struct gather){.source = source, .first = geometry->first_vertex, .count = made});
+    own->positions = gn_gltf_alloc(g, &g->memory.step, own->count, 3 * sizeof *own->positions);
+    if (g->failed) return false;
+    for (size_t i = 0; i < own->count; i++) {
+        memcpy(own->positions + 3 * i, positions + 3 * (size_t)own->source[i],
+               3 * sizeof *positions);
+        if (used) own->source[i] = used[own->source[i]];
+    }
+    if (!normals.accessor) return true;
+    bool lacking = false;
+    normals.source = own->source;
+    normals.count = own->count;
+    own->normals = read_floats(g, &normals, 3);
+    if (!own->normals) return false;
+    normalize_normals(own->normals, own->count, &lacking);
+    if (lacking &&
+        gn_normals_repair(own->positions, own->normals, own->corners, own->corner_count) > 0)
+        gn_gltf_warn(g, at, NORMALS_REPAIRED);
+    return true;
+}
+
+/* Makes tangents, for which vertices may become several. Without them where memory_mb leaves too
+ * little. */
+static bool add_tangents(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
+                         struct own *own) {
+    const struct gn_texture_ref ref = gn_gltf_tangents_uv(g, shape->tangents);
+    const struct gather from = {
+        .accessor = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_UV0 + ref.uv_set]),
+        .source = own->source,
+        .count = own->count};
+    if (gn_tangents_bytes(own->corner_count, own->count) > gn_gltf_room(g)) {
+        gn_gltf_warn(g, at,
+                     "no memory for tangents within memory_mb; shown without its normal map");
+        return true;
+    }
+    float *uv = read_floats(g, &from, 2);
+    if (!uv) return false;
+    for (size_t i = 0; i < own->count; i++) {
+        const float *m = ref.uv_from_uv, u = uv[2 * i], v = uv[2 * i + 1];
+        uv[2 * i] = m[0] * u + m[2] * v;
+        uv[2 * i + 1] = m[1] * u + m[3] * v;
+        for (int k = 0; k < 2; k++)
+            if (!(fabsf(uv[2 * i + k]) < 1e18f)) uv[2 * i + k] = 0;
+    }
+    const struct gn_tangent_mesh mesh = {own->positions, own->normals,      uv,
+                                         own->corners,   own->corner_count, own->count};
+    struct gn_tangents made;
+    if (!gn_tangents_make(g, &mesh, &made)) return false;
+    float *positions = gn_gltf_alloc(g, &g->memory.step, made.count, 3 * sizeof *positions);
+    float *normals = gn_gltf_alloc(g, &g->memory.step, made.count, 3 * sizeof *normals);
+    if (g->failed) return false;
+    for (size_t i = 0; i < made.count; i++) {
+        memcpy(positions + 3 * i, own->positions + 3 * (size_t)made.source[i], 3 * sizeof(float));
+        memcpy(normals + 3 * i, own->normals + 3 * (size_t)made.source[i], 3 * sizeof(float));
+        made.source[i] = own->source[made.source[i]];
+    }
+    *own = (struct own){own->corners,  made.source,       positions, normals,
+                        made.tangents, own->corner_count, made.count};
+    return true;
+}
+
+static bool fill_own_geometry(struct gn_gltf *g, const struct gn_at *at,
+                              const struct gn_shape *shape, struct gn_geometry *geometry) {
+    struct gn_scene_buffers *buffers = &g->scene->buffers;
+    const size_t first = buffers->vertex_count;
+    struct own own = {.corners = buffers->indices + geometry->first_index};
+    if (!make_own(g, at, shape, &own)) return false;
+    if (shape->tangents != GN_TANGENTS_NONE && !add_tangents(g, at, shape, &own)) return false;
+    assert(own.count <= shape->corner_count); /* as allocated */
+    geometry->first_vertex = (uint32_t)first;
+    geometry->vertex_count = (uint32_t)own.count;
+    geometry->index_count = (uint32_t)own.corner_count;
+    for (size_t i = 0; i < own.corner_count; i++) own.corners[i] += geometry->first_vertex;
+    memcpy(buffers->positions + 3 * first, own.positions, 3 * own.count * sizeof *own.positions);
+    memcpy(buffers->normals + 3 * first, own.normals, 3 * own.count * sizeof *own.normals);
+    buffers->vertex_count += geometry->vertex_count;
+    if (!put_other_attributes(
+            g, shape->attribute,
+            (struct gather){.source = own.source, .first = first, .count = own.count}))
+        return false;
+    if (!own.tangents) return true;
+    memcpy(buffers->tangents + 4 * first, own.tangents, own.count * sizeof *own.tangents);
+    gn_geometry_repair_tangents(g->scene, first, own.count);
+    geometry->attributes |= 1u << GN_ATTRIBUTE_TANGENT;
+    return true;
 }
 
 static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
@@ -209,14 +319,11 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
         put_floats(&gather, 3, buffers->positions + 3 * gather.first);
         gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
         put_floats(&gather, 3, buffers->normals + 3 * gather.first);
-        for (size_t i = gather.first; i < gather.first + gather.count; i++) {
-            float *n = buffers->normals + 3 * i;
-            float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-            bool right = length > 1e-12f && length < 1e18f;
-            if (!right) vertices->lacks_normals = true;
-            for (int k = 0; k < 3; k++) n[k] = right ? n[k] / length : 0;
-        }
+        normalize_normals(buffers->normals + 3 * gather.first, gather.count,
+                          &vertices->lacks_normals);
         if (!put_other_attributes(g, vertices->attribute, gather)) return false;
+        if (vertices->attribute[GN_ATTRIBUTE_TANGENT] >= 0)
+            gn_geometry_repair_tangents(g->scene, gather.first, gather.count);
     }
     size_t count = 0;
     const uint32_t *raw = read_corners(g, at, shape, &count);
@@ -228,8 +335,9 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
     geometry->first_vertex = vertices->first;
     geometry->vertex_count = vertices->count;
     geometry->index_count = (uint32_t)count;
-    if (vertices->lacks_normals && gn_geometry_repair_normals(g->scene, geometry) > 0)
-        gn_gltf_warn(g, at, "normals without length; those of the faces are used");
+    if (vertices->lacks_normals &&
+        gn_normals_repair(buffers->positions, buffers->normals, corners, count) > 0)
+        gn_gltf_warn(g, at, NORMALS_REPAIRED);
     return true;
 }
 
@@ -246,17 +354,20 @@ static bool allocate_vertices(struct gn_gltf *g) {
         corners += shape->corner_count;
         if (shape->vertices == UINT32_MAX) vertices += shape->corner_count;
         for (int k = 0; k < GN_ATTRIBUTE_COUNT; k++) any[k] |= shape->attribute[k] >= 0;
+        any[GN_ATTRIBUTE_TANGENT] |= shape->tangents != GN_TANGENTS_NONE;
     }
+    const uint64_t added = g->limits.floor.kind != GN_FLOOR_NONE;
     if (vertices > g->limits.vertices)
         return gn_gltf_fail(g, &meshes,
                             "%" PRIu64 " vertices are more than the limit vertices=%" PRIu64,
                             vertices, g->limits.vertices);
-    if (corners > UINT32_MAX)
+    if (corners + 6 * added > UINT32_MAX)
         return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
+    vertices += 4 * added;
     scene->geometries =
-        gn_gltf_alloc(g, g->memory.scene, scene->geometry_count, sizeof *scene->geometries);
+        gn_gltf_alloc(g, g->memory.scene, scene->geometry_count + added, sizeof *scene->geometries);
     scene->buffers.indices =
-        gn_gltf_alloc(g, g->memory.scene, corners, sizeof *scene->buffers.indices);
+        gn_gltf_alloc(g, g->memory.scene, corners + 6 * added, sizeof *scene->buffers.indices);
     scene->buffers.spreads =
         gn_gltf_alloc(g, g->memory.scene, vertices, sizeof *scene->buffers.spreads);
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
@@ -280,12 +391,13 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
         geometry->first_index = scene->buffers.index_count;
         for (int k = 0; k < GN_ATTRIBUTE_COUNT; k++)
             geometry->attributes |= (uint32_t)(shape->attribute[k] >= 0) << k;
-        bool filled = shape->vertices == UINT32_MAX ? fill_flat_geometry(g, &at, shape, geometry)
+        bool filled = shape->vertices == UINT32_MAX ? fill_own_geometry(g, &at, shape, geometry)
                                                     : fill_shared_geometry(g, &at, shape, geometry);
         if (!filled || !gn_gltf_check_time(g)) return false;
         scene->buffers.index_count += geometry->index_count;
         gn_geometry_measure(scene, geometry, &shape->area);
-        if (shape->vertices != UINT32_MAX) /* else its normals are those of the faces */
+        if (shape->attribute[GN_ATTRIBUTE_NORMAL] >=
+            0) /* else its normals are those of the faces */
             gn_geometry_add_spreads(scene, geometry);
         /* The test visits all vertices, which many geometries may share: run it only where most
          * belong to this one. Many geometries may read the same indices, too: its work is bounded

@@ -61,19 +61,36 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
     return true;
 }
 
-size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry) {
-    const uint32_t *t = scene->buffers.indices + geometry->first_index;
+size_t gn_normals_repair(const float *positions, float *normals, const uint32_t *corners,
+                         size_t corner_count) {
     size_t repaired = 0;
-    for (size_t i = 0; i < geometry->index_count; i++) {
-        float *n = scene->buffers.normals + 3 * (size_t)t[i];
+    for (size_t i = 0; i < corner_count; i++) {
+        float *n = normals + 3 * (size_t)corners[i];
         if (n[0] != 0 || n[1] != 0 || n[2] != 0) continue;
-        const uint32_t *face = t + i - i % 3;
-        face_normal(scene->buffers.positions + 3 * (size_t)face[0],
-                    scene->buffers.positions + 3 * (size_t)face[1],
-                    scene->buffers.positions + 3 * (size_t)face[2], n);
+        const uint32_t *face = corners + i - i % 3;
+        face_normal(positions + 3 * (size_t)face[0], positions + 3 * (size_t)face[1],
+                    positions + 3 * (size_t)face[2], n);
         repaired++;
     }
     return repaired;
+}
+
+void gn_geometry_repair_tangents(struct gn_scene *scene, size_t first, size_t count) {
+    for (size_t i = first; i < first + count; i++) {
+        float *t = scene->buffers.tangents + 4 * i, *n = scene->buffers.normals + 3 * i;
+        vec3 any = {n[1], n[2], n[0]}, across;
+        glm_vec3_cross(any, n, across); /* 0 only where n is along (1, 1, 1) */
+        if (glm_vec3_norm(across) < 1e-3f) glm_vec3_cross((vec3){1, 0, 0}, n, across);
+        const float length = glm_vec3_norm(t);
+        const bool right = length > 1e-6f && length < 1e18f;
+        if (right)
+            glm_vec3_scale(t, 1 / length, t);
+        else if (glm_vec3_norm(across) > 0)
+            glm_vec3_normalize_to(across, t);
+        else /* of a vertex without a normal: no triangle has it */
+            glm_vec3_copy((vec3){1, 0, 0}, t);
+        t[3] = t[3] < 0 ? -1 : 1;
+    }
 }
 
 /* Angles under half a degree are rounding errors of the file's normals. */

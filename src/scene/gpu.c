@@ -23,10 +23,15 @@ uint64_t gn_scene_index_bytes(const struct gn_scene *scene) {
 
 bool gn_scene_count_gpu(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
-    for (uint32_t i = 0; i < scene->material_count; i++)
-        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        uint32_t textures = 0;
+        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
             mark_use(scene, scene->materials[i].textures[slot].texture,
                      gn_texture_slots[slot].texels == GN_TEXELS_SRGB);
+            textures += scene->materials[i].textures[slot].texture >= 0;
+        }
+        if (textures > scene->material_textures) scene->material_textures = textures;
+    }
     for (uint32_t i = 0; i < scene->light_count; i++) mark_use(scene, scene->lights[i].slide, true);
     uint64_t textures = 0,
              buffers = gn_scene_index_bytes(scene) +

@@ -11,9 +11,18 @@ const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
 
 bool gn_material_is_metal(const struct gn_material *m) { return m->metalness > 0.0f; }
 
+bool gn_material_has_opaque_texels(const struct gn_material *m) {
+    return m->alpha == GN_ALPHA_BLEND && !m->shadow_catcher && m->base_color[3] >= GN_OPAQUE_ALPHA;
+}
+
+bool gn_material_has_f0(const struct gn_material *m) {
+    return m->f0[0] != GN_F0 || m->f0[1] != GN_F0 || m->f0[2] != GN_F0;
+}
+
 bool gn_material_is_specular(const struct gn_material *m) {
-    return gn_material_is_metal(m) || m->roughness < 1.0f ||
-           m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
+    if (gn_material_is_metal(m)) return true;
+    if (m->f0[0] == 0 && m->f0[1] == 0 && m->f0[2] == 0) return false;
+    return m->roughness < 1.0f || m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
 }
 
 bool gn_material_is_emissive(const struct gn_material *m) {

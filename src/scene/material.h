@@ -14,7 +14,9 @@
     X(ROUGHNESS, roughness, "roughness", "pbrMetallicRoughness", "metallicRoughnessTexture",       \
       LINEAR, SPECULAR) /* G: roughness, B: metalness */                                           \
     X(EMISSIVE, emissive, "emissive-texture", "", "emissiveTexture", SRGB, EMISSION)               \
-    X(OCCLUSION, occlusion, "occlusion", "", "occlusionTexture", LINEAR, AMBIENT) /* R */
+    X(OCCLUSION, occlusion, "occlusion", "", "occlusionTexture", LINEAR, AMBIENT) /* R */          \
+    X(NORMAL, normal, "normal-map", "", "normalTexture", LINEAR, LIGHT) /* with vertex tangents */ \
+    X(LIGHTMAP, lightmap, "light-map", "", "extensions.MOZ_lightmap", SRGB, AMBIENT)
 
 enum gn_texture_slot {
 #define GN_X(NAME, ...) GN_TEXTURE_##NAME,
@@ -44,8 +46,12 @@ extern const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT];
 
 struct gn_material;
 bool gn_material_is_specular(const struct gn_material *material); /* has a highlight, if lit */
-bool gn_material_is_metal(const struct gn_material *material);    /* in places */
+/* Blended, but opaque where its texture is, as most are that call themselves blended. */
+bool gn_material_has_opaque_texels(const struct gn_material *material);
+#define GN_OPAQUE_ALPHA 0.99f
+bool gn_material_is_metal(const struct gn_material *material); /* in places */
 bool gn_material_is_emissive(const struct gn_material *material);
+bool gn_material_has_f0(const struct gn_material *material); /* other than GN_F0 */
 /* Whether a picture of the material reads the slot, if it has such a texture. */
 bool gn_material_reads(const struct gn_material *material, enum gn_texture_slot slot);
 

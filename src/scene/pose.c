@@ -164,9 +164,11 @@ void gn_pose_choose(struct gn_pose *pose, int clips) {
     for (uint32_t i = 0; i < scene->item_count; i++) {
         if (pose->node_moves[scene->items[i].node]) continue;
         pose_item(pose, i);
-        join_boxes(&memory->still_ws, &pose->items[i].box_ws);
+        if (!scene->materials[scene->items[i].material].shadow_catcher)
+            join_boxes(&memory->still_ws, &pose->items[i].box_ws);
     }
     pose->box_ws = memory->still_ws;
+    if (pose->aimed) gn_pose_aim(pose, pose->aim_ws);
     gn_pose_step(pose, 0);
 }
 
@@ -263,6 +265,22 @@ void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
     unit_or(world[2], (vec3){0, 0, 1}, direction_ws);
     glm_vec3_negate(direction_ws);
     position_of(world, position_ws);
+}
+
+void gn_pose_aim(struct gn_pose *pose, const float *aim_ws) {
+    const struct gn_scene *scene = pose->scene;
+    if (!scene->added.light) return;
+    const uint32_t node = scene->lights[scene->light_count - 1].node;
+    vec4 *world = pose->world_from_node[node];
+    pose->aimed = aim_ws;
+    pose_node(pose, node);
+    if (!aim_ws) return;
+    glm_vec3_copy((float *)aim_ws, pose->aim_ws);
+    glm_vec3_negate_to(pose->aim_ws, world[2]);
+    glm_vec3_ortho(world[2], world[0]);
+    if (fabsf(world[2][1]) < .9999f) glm_vec3_crossn(GLM_YUP, world[2], world[0]);
+    gn_unit(world[0]);
+    glm_vec3_cross(world[2], world[0], world[1]);
 }
 
 void gn_unit(vec3 v) {

@@ -44,17 +44,32 @@ struct gn_accessor {
     bool resolved; /* checked by gn_gltf_accessor() */
 };
 
-/* Features not supported yet: the scene is shown without them, and one warning lists them. */
+/* X(NAME, words, extension of materials or NULL): what is not supported yet; the scene is shown
+ * without, and missing.c lists it. */
+#define GN_MISSING(X)                                                                              \
+    X(SKINS, "skins", NULL)                                                                        \
+    X(MORPHS, "morph targets", NULL)                                                               \
+    X(VARIANTS, "material variants", NULL)                                                         \
+    X(WEBP, "WebP pictures", NULL)                                                                 \
+    X(BASISU, "KTX2 pictures", NULL)                                                               \
+    X(DRACO, "Draco-compressed meshes", NULL)                                                      \
+    X(POINTERS, "animation pointers", NULL)                                                        \
+    X(CLEARCOAT, "clear coat", "KHR_materials_clearcoat")                                          \
+    X(TRANSMISSION, "transmission", "KHR_materials_transmission")                                  \
+    X(VOLUME, "volume", "KHR_materials_volume")                                                    \
+    X(SHEEN, "sheen", "KHR_materials_sheen")                                                       \
+    X(IRIDESCENCE, "iridescence", "KHR_materials_iridescence")                                     \
+    X(ANISOTROPY, "anisotropy", "KHR_materials_anisotropy")                                        \
+    X(DISPERSION, "dispersion", "KHR_materials_dispersion")                                        \
+    X(DIFFUSE_TRANSMISSION, "diffuse transmission", "KHR_materials_diffuse_transmission")          \
+    X(SPECULAR_TEXTURES, "textures of KHR_materials_specular", NULL)                               \
+    X(GLOSSINESS_TEXTURES, "specular-glossiness textures", NULL)
+
 enum gn_missing {
-    GN_MISSING_SKINS,
-    GN_MISSING_MORPHS,
-    GN_MISSING_NORMAL_MAPS,
-    GN_MISSING_VARIANTS,
-    GN_MISSING_WEBP,
-    GN_MISSING_BASISU,
-    GN_MISSING_DRACO,
-    GN_MISSING_POINTERS,
-    GN_MISSING_COUNT,
+#define GN_X(NAME, ...) GN_MISSING_##NAME,
+    GN_MISSING(GN_X)
+#undef GN_X
+        GN_MISSING_COUNT,
 };
 
 struct gn_primitive { /* of a mesh */
@@ -74,7 +89,9 @@ struct gn_vertices { /* a set of attribute accessors; geometries with normals sh
 struct gn_shape { /* the source of a geometry */
     int32_t attribute[GN_ATTRIBUTE_COUNT];
     int32_t indices, mode;
-    uint32_t vertices;        /* index into primitives.vertices; UINT32_MAX: flat normals */
+    int32_t tangents;         /* to make (gn_gltf_tangents); 0: none */
+    uint32_t vertices;        /* index into primitives.vertices; UINT32_MAX: its own, since normals
+                                 or tangents are made */
     uint32_t mesh, primitive; /* the first to use it, for messages */
     uint64_t corner_count;    /* most indices that it can come to */
     double area;              /* of its triangles, if it is flat */
@@ -86,7 +103,7 @@ struct gn_placed { /* what glTF and its extras attach to a node of the scene */
     int32_t mesh;
     uint32_t first_instance, instance_count;
     bool bare; /* not listed by the scene: kept for a descendant that is */
-    bool receives, casts;
+    bool receives, casts, casts_alpha;
     enum gn_tristate plane;
     enum gn_cast_faces cast_faces;
 };
@@ -129,6 +146,7 @@ struct gn_gltf_to_scene { /* from numbers of the file to indices in the scene */
     int32_t *texture;     /* -1: not looked at yet, -2: dropped */
     int32_t *image;       /* the same */
 };
+enum { GN_ADDED_NODES = 3 }; /* at most: a camera, a light, a floor */
 struct gn_gltf {
     const char *path; /* names the file in messages */
     char *folder;     /* real path of its folder, or NULL: no other files */
@@ -144,7 +162,7 @@ struct gn_gltf {
     struct gn_gltf_file file;
     struct gn_gltf_primitives primitives;
     struct gn_gltf_pictures pictures;
-    struct gn_placed *placed; /* scene->node_count, + 2 */
+    struct gn_placed *placed; /* scene->node_count, + GN_ADDED_NODES */
     struct gn_gltf_to_scene to_scene;
     size_t misplaced; /* triangles that are not shown: positions that are not finite */
     uint64_t key_total;
@@ -198,6 +216,10 @@ bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
 
 /* ---- helpers ---- */
 
+/* missing.c: notes the extensions of a material that is shown; then the list of all. */
+void gn_missing_of_material(struct gn_gltf *g, const struct gn_at *material);
+bool gn_missing_list(struct gn_gltf *g);
+
 /* uri.c: data: URIs and files in the model's folder or below. err has no path before its
  * text. */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);
@@ -229,13 +251,48 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
                               size_t corner_count, size_t vertex_count, uint32_t **source,
                               float **normals, size_t *made);
 /* Replaces normals of length 0 by the normal of a face; returns their number. */
-size_t gn_geometry_repair_normals(struct gn_scene *scene, const struct gn_geometry *geometry);
+size_t gn_normals_repair(const float *positions, float *normals, const uint32_t *corners,
+                         size_t corner_count);
 /* Of the vertices of a geometry, whose triangles may share them with others. */
 void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *geometry);
 /* closed.c. False also where memory_mb leaves too little memory for the test. */
 bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry);
 /* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
+
+/* Of the vertices first .. first + count: tangents of length 0 become any in the surface, w -1
+ * or 1.
+ */
+void gn_geometry_repair_tangents(struct gn_scene *scene, size_t first, size_t count);
+
+/* tangent.c: tangents for normal maps, as MikkTSpace defines them. */
+struct gn_tangent_mesh {
+    const float *positions, *normals, *uv; /* of vertices: 3, 3 and 2 each, finite */
+    uint32_t *corners;                     /* of triangles; become indices into what is made */
+    size_t corner_count, vertex_count;
+};
+struct gn_tangents {  /* in work memory */
+    uint32_t *source; /* by vertex: its number before; those there were keep theirs */
+    vec4 *tangents;
+    size_t count; /* of vertices; at most corner_count, if each is that of a corner */
+};
+bool gn_tangents_make(struct gn_gltf *g, const struct gn_tangent_mesh *mesh,
+                      struct gn_tangents *out);
+size_t gn_tangents_bytes(size_t corner_count, size_t vertex_count); /* of work memory, about */
+
+/* gltf/material.c: the sets of coordinates that a material's textures read (TEXCOORD_n): the first
+ * two of them, or 0 and 1 where it names no other. The scene numbers them 0 and 1. material -1:
+ * glTF's default. */
+enum { GN_UV_SETS = 2 };
+void gn_gltf_uv_sets(struct gn_gltf *g, int32_t material, uint64_t sets[GN_UV_SETS]);
+
+/* gltf/material.c: what a material's normal map needs of a vertex. */
+enum { GN_TANGENTS_NONE, GN_TANGENTS_UV, GN_TANGENTS_MATERIAL = 16 };
+/* GN_TANGENTS_NONE without a normal map; GN_TANGENTS_UV + the set of its coordinates; or, where
+ * they are transformed, GN_TANGENTS_MATERIAL + the material's number. */
+int32_t gn_gltf_tangents(struct gn_gltf *g, int32_t material);
+/* The coordinates that tangents are made for. */
+struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents);
 
 /* gltf/image.c: the scene's texture for one of the file, created at its first use; -1: none, or
  * dropped with a warning. */
@@ -245,15 +302,32 @@ int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture);
  * default is kept. */
 void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_placed *placed);
 void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_light *light);
+/* lightmap_set: the number that the scene gives TEXCOORD_1, or -1. */
+void gn_extras_material(struct gn_gltf *g, const struct gn_at *material, int lightmap_set,
+                        struct gn_material *m);
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
 
 /* gltf/instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
 bool gn_gltf_instances(struct gn_gltf *g);
 
-/* plane.c: sets item->plane, by gnomon_plane or by finding one large flat face. pose: as the file
+/* plane.c: sets item->plane, by gnomon_plane or by finding large flat faces. pose: as the file
  * places the nodes. */
 struct gn_pose;
-void gn_scene_find_plane(struct gn_gltf *g, const struct gn_pose *pose);
+void gn_scene_find_planes(struct gn_gltf *g, const struct gn_pose *pose);
+
+/* extent.c: scene->extents, by poses of all clips. */
+bool gn_scene_measure(struct gn_gltf *g, struct gn_pose *pose);
+/* floor.c: adds the shadow catcher that limits.floor asks for. After gn_scene_measure(). */
+void gn_scene_add_floor(struct gn_gltf *g, struct gn_pose *pose);
+
+/* floor_occlusion.c: a new texture: in R the share of a uniform sky that a square of the floor sees
+ * past the items that do not move, X to the right, Z down; 1 along its rim. middle: of the square.
+ * -1: out of memory, and the load fails. */
+int32_t gn_floor_occlusion(struct gn_gltf *g, const struct gn_pose *pose, const float middle[3],
+                           float side_m);
+
+/* gltf/material.c: glTF's default material, and the defaults of every other. */
+void gn_material_init(struct gn_material *material);
 
 /* pose_anim.c: the value of a channel at a time, 3 or 4 floats. */
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out);

@@ -41,20 +41,25 @@ struct gn_texture {
 
 struct gn_texture_ref {
     int32_t texture; /* index, or -1: none */
-    uint8_t uv_set;  /* 0 or 1 */
+    uint8_t uv_set;  /* 0 or 1: of the two sets of coordinates that the material reads */
     /* uv' = (m[0] u + m[2] v + m[4], m[1] u + m[3] v + m[5]): KHR_texture_transform, identity
      * without */
     float uv_from_uv[6];
 };
 
+#define GN_F0 .04f /* of an index of refraction of 1.5 */
 enum gn_alpha { GN_ALPHA_OPAQUE, GN_ALPHA_MASK, GN_ALPHA_BLEND };
 struct gn_material {
     const char *name; /* never NULL */
     vec4 base_color;  /* linear, factors; alpha last */
     vec3 emissive;    /* linear radiance, KHR_materials_emissive_strength applied */
     float roughness, metalness, occlusion_strength, alpha_cutoff;
+    float normal_scale; /* of x and y of the normal map */
+    float lightmap_intensity;
+    vec3 f0; /* reflectance at normal incidence of what is no metal; GN_F0 */
     enum gn_alpha alpha;
     bool double_sided, unlit;
+    bool shadow_catcher; /* unseen: black, its alpha the share of light that shadows take from it */
     struct gn_texture_ref textures[GN_TEXTURE_SLOT_COUNT];
 };
 
@@ -67,7 +72,7 @@ struct gn_geometry {
     uint32_t first_index,
         index_count;     /* a multiple of 3; indices are absolute, into buffers.positions */
     struct gn_box box;   /* mesh space */
-    uint32_t attributes; /* bit per gn_attribute that the file has */
+    uint32_t attributes; /* bit per gn_attribute that the file has, and TANGENT where it was made */
     bool flat;           /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
     bool closed; /* the boundary of solid bodies, front faces outward; false when in doubt */
     vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
@@ -88,6 +93,7 @@ struct gn_item {
     int32_t instance;     /* index into scene->instances, or -1 */
     uint32_t batch;       /* equal for items that can share a call; ascending */
     bool casts, receives; /* gnomon_cast, gnomon_receive */
+    bool casts_alpha;     /* gnomon_cast_alpha: blended, it casts a shadow by its alpha, dithered */
     uint8_t plane;        /* in which it receives planar shadows, from 1; 0: in none */
     enum gn_cast_faces cast_faces;
 };
@@ -126,7 +132,8 @@ struct gn_camera {
     const char *name;
     uint32_t node; /* looks along its -Z */
     bool orthographic;
-    float yfov_rad;       /* perspective; the aspect is the picture's */
+    float yfov_rad;       /* perspective, of a picture of this aspect or a wider one */
+    float aspect;         /* perspective; 0: any. A narrower picture keeps the horizontal angle */
     float xmag_m, ymag_m; /* orthographic half-sizes */
     float near_m, far_m;  /* far 0: infinite */
 };
@@ -152,7 +159,7 @@ struct gn_scene_buffers { /* vertices and indices of all geometries */
     union { /* the rows of scene/attribute.h, an array each; NULL if no geometry has any */
         struct {
 #define GN_X(NAME, name, type, field, ...) type *field;
-            GN_ATTRIBUTES(GN_X) /* positions, normals, uv0, uv1, colors */
+            GN_ATTRIBUTES(GN_X) /* positions, normals, uv0, uv1, tangents, colors */
 #undef GN_X
         };
         void *attributes[GN_ATTRIBUTE_COUNT];
@@ -173,12 +180,18 @@ struct gn_scene_animation {
     struct gn_channel *channels; /* of all clips, clip by clip */
     uint32_t clip_count, channel_count;
 };
+/* Points that stand for all that is drawn: it lies within their convex hull, but for 2 % of its
+ * radius. World space. */
+struct gn_extent {
+    vec3 *points;
+    uint32_t count; /* 1 to 128 */
+};
 struct gn_scene_environment { /* linear, after exposure */
     vec3 sky, ground;         /* radiance of the hemispheres */
     vec3 background;
 };
-struct gn_scene_added { /* by the loader, as the last one, because the file has none */
-    bool light, camera;
+struct gn_scene_added {        /* by the loader, as the last one, because the file has none */
+    bool light, camera, floor; /* the floor: an item whose material is a shadow catcher */
 };
 struct gn_scene_memory {
     size_t bytes; /* of the scene */
@@ -187,9 +200,10 @@ struct gn_scene_memory {
 
 struct gn_scene {
     const char *name;
+    const char *missing; /* what the file asks for and is shown without: "skins, sheen", or "" */
     struct gn_scene_buffers buffers;
     struct gn_geometry *geometries;
-    struct gn_material *materials; /* the last one is glTF's default material */
+    struct gn_material *materials; /* after those of the file glTF's default material */
     struct gn_node *nodes;         /* of the shown scene only */
     mat4 *instances;               /* node_from_instance */
     struct gn_item *items;
@@ -197,16 +211,33 @@ struct gn_scene {
     struct gn_camera *cameras;
     uint32_t geometry_count, material_count, node_count, instance_count, item_count, light_count,
         camera_count, batch_count;
+    uint32_t material_textures; /* of the material with most */
     struct gn_scene_pictures pictures;
     struct gn_scene_animation animation;
     struct gn_scene_environment environment;
     struct gn_scene_added added;
+    struct gn_extent *extents; /* over the time of all clips that a pose plays: at its `clips` minus
+                                  GN_POSE_NONE */
 
     struct gn_box
         box; /* of everything visible, world space, nodes as the file places them; never empty */
     uint64_t triangle_count; /* of all items */
+    bool planes_named;       /* by gnomon_plane; else those that there are were found */
     struct gn_scene_memory memory;
 };
+
+/* An unseen floor that catches shadows; the zero value: none. */
+struct gn_scene_floor {
+    enum gn_floor {
+        GN_FLOOR_NONE,
+        GN_FLOOR_AUTO, /* under the model, where the scene has no floor of its own */
+        GN_FLOOR_HEIGHT,
+    } kind;
+    float height_m; /* HEIGHT: y, world space */
+};
+
+/* Side of the square that its occlusion texture covers, in halves of the floor's side. */
+#define GN_FLOOR_OCCLUDED .375f
 
 /* Limits on what a file may use; 0 = the default beside each, which in megabytes is less on a
  * machine with little memory. The names are those of --limit. */
@@ -232,6 +263,7 @@ struct gn_scene_limits {
     uint64_t ahead_percent;       /* 10: programs of modes that were not shown yet, of the memory
                                      that is in use without them */
     const atomic_bool *cancel;    /* another thread sets it to end the load, which fails; or NULL */
+    struct gn_scene_floor floor;  /* no limit: what is added to the file */
 };
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,

@@ -219,7 +219,8 @@ struct gn_shadow_memory {
 void gn_shadow_memory_init(struct gn_shadow_memory *memory, uint32_t item_count);
 void gn_shadow_memory_finish(struct gn_shadow_memory *memory);
 
-/* Whether an item is drawn into maps at all: blended items cast no shadow. */
+/* Whether an item is drawn into maps at all: blended items cast no shadow unless they are to cast
+ * one by their alpha. */
 bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item);
 
 /* How many tiles a light's map without cascades has, and the size of the map for a tile of so many

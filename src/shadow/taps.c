@@ -35,13 +35,13 @@ void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]) {
 /* Turned by noise_quarter(), the share of the points on one side of a straight edge is as near as
  * can be to the disk's: RMSE over edges .050, .034, .026; with radii of equal area .053, .037,
  * .028. By a random search among points that share products (shaders_es/shadow/cone.glsl): the
- * first and the fourth lie on the x axis, the second of two on the diagonal, the others mirror each
- * other. */
+ * first and the last of three or four lie on the x axis, the second of two or three on the
+ * diagonal, those of four between them mirror each other. */
 static const struct {
     double radius, angle_deg;
 } rings[GN_RINGS_MAX + 1][GN_RINGS_MAX] = {
     [2] = {{.5277, 0}, {.7988, 45}},
-    [3] = {{.3642, 0}, {.8055, 23.5}, {.8055, -23.5}},
+    [3] = {{.3598, 0}, {.7919, 45}, {.8228, 0}},
     [4] = {{.3032, 0}, {.7611, 30.6}, {.7611, -30.6}, {.8168, 0}},
 };
 

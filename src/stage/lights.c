@@ -23,7 +23,40 @@ static struct gn_frame_light_opts *find_entry(struct gn_frame_shadow_opts *opts,
     return &opts->lights[i];
 }
 
-static void set_entry(struct gn_frame_light_opts *entry, const struct gn_override *setting) {
+static float strongest_of(const float color[3]) {
+    return fmaxf(color[0], fmaxf(color[1], color[2]));
+}
+
+static void begin_color(struct gn_frame_light_opts *entry, const struct gn_light *light) {
+    if (!(entry->given & GN_LIGHT_COLOR)) memcpy(entry->color, light->color, sizeof entry->color);
+    entry->given |= GN_LIGHT_COLOR;
+}
+
+/* Intensity is the strongest channel of gn_light's colour, as inspect prints it. A colour keeps it:
+ * how bright the colour is does not count. srgb: 0xRRGGBB; below 0: the light's own. */
+static void set_color(struct gn_frame_light_opts *entry, int srgb, const struct gn_light *light) {
+    begin_color(entry, light);
+    const float intensity = strongest_of(entry->color);
+    float hue[3];
+    memcpy(hue, light->color, sizeof hue);
+    for (int k = 0; k < 3 && srgb >= 0; k++) {
+        const float s = (float)(srgb >> (16 - 8 * k) & 0xff) / 255;
+        hue[k] = s <= .04045f ? s / 12.92f : powf((s + .055f) / 1.055f, 2.4f);
+    }
+    const float most = strongest_of(hue);
+    for (int k = 0; k < 3; k++) entry->color[k] = intensity * (most > 0 ? hue[k] / most : 1);
+}
+
+static void set_intensity(struct gn_frame_light_opts *entry, double intensity,
+                          const struct gn_light *light) {
+    begin_color(entry, light);
+    const float now = strongest_of(entry->color),
+                to = isnan(intensity) ? strongest_of(light->color) : (float)intensity;
+    for (int k = 0; k < 3; k++) entry->color[k] = now > 0 ? entry->color[k] * (to / now) : to;
+}
+
+static void set_entry(struct gn_frame_light_opts *entry, const struct gn_override *setting,
+                      const struct gn_light *light) {
     const void *value = setting->value;
     const int *whole = value;
     switch (setting->row->offset) {
@@ -77,20 +110,51 @@ static void set_entry(struct gn_frame_light_opts *entry, const struct gn_overrid
         entry->strength = (float)*(const double *)value;
         entry->given |= GN_LIGHT_STRENGTH;
         break;
-    case offsetof(struct gn_settings, render.light_radius):
+    case offsetof(struct gn_settings, light.radius):
         entry->radius = (float)*(const double *)value;
         entry->given |= GN_LIGHT_RADIUS;
+        break;
+    case offsetof(struct gn_settings, light.color): set_color(entry, *whole, light); break;
+    case offsetof(struct gn_settings, light.intensity):
+        set_intensity(entry, *(const double *)value, light);
+        break;
+    case offsetof(struct gn_settings, light.on):
+        if (!*(const bool *)value) entry->given |= GN_LIGHT_OFF;
         break;
     }
 }
 
-/* The radius of a mode, a flag or `ctl set` is that of the made light alone. */
+/* What a mode, a flag or `ctl set` says in [light] is of the made light alone. */
 static bool is_overruled(const struct gn_settings *settings, const struct gn_scene *scene,
                          uint32_t light, const struct gn_override *setting) {
-    const size_t radius = offsetof(struct gn_settings, render.light_radius);
-    return setting->row->offset == radius && scene->added.light &&
-           light + 1 == scene->light_count &&
-           gn_settings_source(settings, radius) >= GN_SOURCE_MODE;
+    const size_t intensity = offsetof(struct gn_settings, light.intensity),
+                 offset = setting->row->offset == intensity
+                              ? offsetof(struct gn_settings, light.lux)
+                              : setting->row->offset;
+    const bool of_made_light =
+        setting->row->offset == intensity ||
+        (setting->row->section && strcmp(setting->row->section, "light") == 0);
+    return of_made_light && scene->added.light && light + 1 == scene->light_count &&
+           gn_settings_source(settings, offset) >= GN_SOURCE_MODE;
+}
+
+static bool is_given(const struct gn_settings *settings, size_t offset) {
+    return gn_settings_source(settings, offset) != GN_SOURCE_DEFAULT;
+}
+
+/* What [light] says of the made light. */
+static void set_made_light(struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
+                           const struct gn_scene *scene) {
+    const struct gn_light_settings *s = &settings->light;
+    const struct gn_light *light = &scene->lights[scene->light_count - 1];
+    struct gn_frame_light_opts entry = {.light = scene->light_count - 1};
+    if (is_given(settings, offsetof(struct gn_settings, light.radius))) {
+        entry.radius = (float)s->radius;
+        entry.given |= GN_LIGHT_RADIUS;
+    }
+    if (s->color >= 0) set_color(&entry, s->color, light);
+    if (!isnan(s->lux)) set_intensity(&entry, s->lux, light);
+    if (entry.given) opts->lights[opts->light_count++] = entry;
 }
 
 static void warn_of_name(const struct gn_light_section *section, const struct gn_scene *scene,
@@ -104,13 +168,40 @@ static void warn_of_name(const struct gn_light_section *section, const struct gn
             section->label, section->name, names);
 }
 
+/* To the key of the environment, or as it was made. */
+static void aim_at_key(struct gn_pose *pose, const struct gn_frame_environment_opts *e) {
+    gn_pose_aim(pose, NULL);
+    if (!e->of || !e->lights_key) return;
+    const float *d = e->of->key.direction, c = cosf(e->turn_rad), s = sinf(e->turn_rad);
+    const vec3 along = {-(c * d[0] + s * d[2]), -d[1], -(c * d[2] - s * d[0])};
+    gn_pose_aim(pose, along);
+}
+
+void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
+                  const struct gn_settings *settings) {
+    const struct gn_light_settings *s = &settings->light;
+    const struct gn_scene *scene = pose->scene;
+    const struct gn_frame_environment_opts *e = &opts->environment;
+    const bool moved = !isnan(s->azimuth_deg) || !isnan(s->elevation_deg) || s->follows_camera;
+    if (!scene->added.light || !(moved || pose->aimed || (e->of && e->lights_key))) return;
+    aim_at_key(pose, e);
+    if (!moved) return;
+    vec3 place, along, added = GN_FRAMING_ADDED_BACK;
+    gn_pose_light(pose, scene->light_count - 1, place, along);
+    float azimuth_rad = atan2f(-along[0], -along[2]), elevation_rad = asinf(-along[1]);
+    if (s->follows_camera) azimuth_rad -= atan2f(added[0], added[2]);
+    if (!isnan(s->azimuth_deg)) azimuth_rad = glm_rad((float)s->azimuth_deg);
+    if (!isnan(s->elevation_deg)) elevation_rad = glm_rad((float)s->elevation_deg);
+    if (s->follows_camera) azimuth_rad += gn_frame_camera_azimuth(pose, &opts->view);
+    along[0] = -sinf(azimuth_rad) * cosf(elevation_rad);
+    along[1] = -sinf(elevation_rad);
+    along[2] = -cosf(azimuth_rad) * cosf(elevation_rad);
+    gn_pose_aim(pose, along);
+}
+
 void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
                          const struct gn_scene *scene, struct gn_warnings *warnings) {
-    if (scene->added.light && gn_settings_given(settings, render.light_radius))
-        opts->lights[opts->light_count++] =
-            (struct gn_frame_light_opts){.light = scene->light_count - 1,
-                                         .given = GN_LIGHT_RADIUS,
-                                         .radius = (float)settings->render.light_radius};
+    if (scene->added.light) set_made_light(opts, settings, scene);
     for (int s = 0; s < settings->light_count; s++) {
         const struct gn_light_section *section = &settings->lights[s];
         bool found = false;
@@ -125,10 +216,20 @@ void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_sett
             }
             for (const struct gn_override *o = section->first; o; o = o->next)
                 if (gn_settings_light_holds(settings, o) && !is_overruled(settings, scene, i, o))
-                    set_entry(entry, o);
+                    set_entry(entry, o, &scene->lights[i]);
         }
         if (!found && !settings->several_scenes) warn_of_name(section, scene, warnings);
     }
+}
+
+void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *scene,
+                      const struct gn_environment_key *key, float strength) {
+    struct gn_frame_light_opts *entry = find_entry(opts, scene->light_count - 1);
+    if (!entry) return;
+    if (!(entry->given & GN_LIGHT_RADIUS)) entry->radius = key->radius;
+    if (!(entry->given & GN_LIGHT_COLOR))
+        for (int k = 0; k < 3; k++) entry->color[k] = key->color[k] * strength;
+    entry->given |= GN_LIGHT_RADIUS | GN_LIGHT_COLOR;
 }
 
 void gn_stage_print_light(const struct gn_settings *settings,

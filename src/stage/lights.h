@@ -1,4 +1,4 @@
-/* [light "NAME"] of the configuration: what it says of the lights of a scene. */
+/* [light] and [light "NAME"] of the configuration: what they say of the lights of a scene. */
 #ifndef GN_STAGE_LIGHTS_H
 #define GN_STAGE_LIGHTS_H
 
@@ -13,6 +13,14 @@ bool gn_light_section_is_of(const struct gn_light_section *section, const struct
  */
 void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
                          const struct gn_scene *scene, struct gn_warnings *warnings);
+/* Turns the light that the loader added as [light] says, for the camera as it stands now. Without
+ * that it shines as it was made, or as the key of the environment. */
+void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
+                  const struct gn_settings *settings);
+/* After that: the light made for a scene without any is the key of its environment; what settings
+ * say of it holds. */
+void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *scene,
+                      const struct gn_environment_key *key, float strength);
 /* What holds of a section, as "shadow = pcss, map = 512"; "" if that is nothing. */
 void gn_stage_print_light(const struct gn_settings *settings,
                           const struct gn_light_section *section, char *out, size_t size);

@@ -30,16 +30,16 @@ static void init_eye(const struct gn_stage *stage, const struct gn_plan *plan,
     double centre[3];
     for (int k = 0; k < 3; k++) centre[k] = .5 * ((double)box->min[k] + (double)box->max[k]);
     const int w = (int)plan->width_px, h = (int)plan->height_px;
+    struct gn_framing_opts opts = view->framing;
+    struct gn_framing framing;
+    opts.aspect = (float)w / (float)h;
     if (view->light_plus_1 > 0) {
-        struct gn_camera camera;
-        mat4 view_from_world;
-        vec3 eye_ws;
-        gn_frame_light_camera(&stage->pose, view->light_plus_1 - 1, (float)w / (float)h, &camera,
-                              view_from_world, eye_ws);
-        gn_ray_eye_look(eye, &camera, view_from_world, eye_ws, w, h);
+        gn_frame_light_camera(&stage->pose, view->light_plus_1 - 1, opts.aspect, &framing.camera,
+                              framing.view_from_world, framing.eye_ws);
     } else {
-        gn_ray_eye_init(eye, &stage->pose, (uint32_t)view->camera, w, h);
+        gn_framing_build(&stage->pose, (uint32_t)view->camera, &opts, &framing);
     }
+    gn_ray_eye_look(eye, &framing, w, h);
     if (view->turntable_rad != 0.0f) gn_ray_eye_turn(eye, centre, (double)view->turntable_rad);
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/embedded.h"
 #include "core/stop.h"
+#include "stage/environment.h"
 #include "stage/import.h"
 #include "stage/lights.h"
 #include "stage/rays.h"
@@ -42,7 +43,12 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
 
 bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
                      struct gn_err *err) {
-    *limits = (struct gn_scene_limits){0};
+    const double floor_m = settings->scene.floor_m;
+    *limits =
+        (struct gn_scene_limits){.floor = {.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
+                                                   : isinf(floor_m) ? GN_FLOOR_NONE
+                                                                    : GN_FLOOR_HEIGHT,
+                                           .height_m = isfinite(floor_m) ? (float)floor_m : 0.0f}};
     for (int i = 0; i < settings->render.limits.count; i++)
         if (!gn_scene_limits_set(limits, settings->render.limits.items[i].name,
                                  (uint64_t)settings->render.limits.items[i].value, err))
@@ -117,11 +123,24 @@ static bool choose_camera(const struct gn_settings *o, const struct gn_scene *sc
     return true;
 }
 
+static enum gn_background background_of(int setting) {
+    return setting == GN_SHOW_SCENE         ? GN_BACKGROUND_SCENE
+           : setting == GN_SHOW_SKY         ? GN_BACKGROUND_SKY
+           : setting == GN_SHOW_TRANSPARENT ? GN_BACKGROUND_TRANSPARENT
+                                            : GN_BACKGROUND_COLOR;
+}
+
+static float linear_of(unsigned code) {
+    const float c = (float)code / 255.0f;
+    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
+}
+
 static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o) {
     const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
         .width_px = (uint32_t)o->render.size.width_px,
         .height_px = (uint32_t)o->render.size.height_px,
+        .view.framing.turns = o->scene.turntable_deg_s != 0.0,
         .debug.aov = o->render.aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
                                                    : (enum gn_aov)o->render.aov,
         .debug.light = o->render.light,
@@ -153,13 +172,39 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .shadow.filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
         .shadow.strength_given = gn_settings_given(o, render.shadow_strength),
         .shadow.strength = (float)o->render.shadow_strength,
-        .msaa = (uint32_t)o->render.msaa,
+        .background = background_of(o->render.background),
+        .tone = (enum gn_tone)o->render.tone,
+        .msaa = o->render.msaa == GN_MSAA_AUTO ? 0 : (uint32_t)o->render.msaa,
         .debug.show_lights = o->render.show_lights,
         .debug.show_maps = o->render.show_maps,
     };
+    for (int k = 0; k < 3 && f->background == GN_BACKGROUND_COLOR; k++)
+        f->background_color[k] = linear_of((unsigned)o->render.background >> (16 - 8 * k) & 255);
     f->shadow.technique_given = gn_settings_given(o, render.shadow);
     if (f->shadow.technique_given && o->render.shadow.count == 1) /* bench sets each of a list */
         f->shadow.technique = (enum gn_technique)o->render.shadow.items[0];
+}
+
+static bool casts_rays(const struct gn_frame_shadow_opts *shadow) {
+    bool any = shadow->technique == GN_TECHNIQUE_TRUTH;
+    for (uint32_t i = 0; i < shadow->light_count; i++)
+        any |= shadow->lights[i].technique == GN_TECHNIQUE_TRUTH;
+    return any;
+}
+
+/* [camera]: what is not given stays as the camera has it. */
+static void set_framing(struct gn_framing_opts *framing, const struct gn_camera_settings *s) {
+    const double values[] = {s->theta_deg, s->phi_deg, s->distance_m, s->target_m[0], s->fov_deg};
+    for (int i = 0; i < 5; i++) framing->given |= isnan(values[i]) ? 0 : 1u << i;
+    framing->theta_rad = glm_rad((float)s->theta_deg);
+    framing->phi_rad = glm_rad((float)s->phi_deg);
+    framing->distance_m = (float)s->distance_m;
+    for (int k = 0; k < 3; k++) framing->target_ws[k] = (float)s->target_m[k];
+    framing->yfov_rad = glm_rad((float)s->fov_deg);
+    framing->phi_min_rad = glm_rad((float)s->phi_min_deg);
+    framing->phi_max_rad = glm_rad((float)s->phi_max_deg);
+    framing->distance_min_m = isnan(s->distance_min_m) ? 0.0f : (float)s->distance_min_m;
+    framing->distance_max_m = isnan(s->distance_max_m) ? 0.0f : (float)s->distance_max_m;
 }
 
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o,
@@ -175,12 +220,12 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     struct gn_scene_limits limits;
     if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
+    set_framing(&look->frame_opts.view.framing, &o->camera);
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
-    const struct gn_frame_shadow_opts *shadow = &look->frame_opts.shadow;
-    bool is_truth = shadow->technique == GN_TECHNIQUE_TRUTH;
-    for (uint32_t i = 0; i < shadow->light_count; i++)
-        is_truth |= shadow->lights[i].technique == GN_TECHNIQUE_TRUTH;
-    if (is_truth && look->frame_opts.msaa > 1)
+    if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
+        !do_without(o, offsetof(struct gn_settings, render.environment), warnings, err))
+        return false;
+    if (look->frame_opts.msaa > 1 && casts_rays(&look->frame_opts.shadow))
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
                              gn_settings_label(o, render.msaa), look->frame_opts.msaa);
     limits = gn_scene_limits_or_default(&limits);
@@ -198,6 +243,7 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     stage->frame_opts = look.frame_opts;
     gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_step(&stage->pose, settings->scene.time_ns);
+    gn_stage_aim(&stage->pose, &stage->frame_opts, settings);
     return true;
 }
 
@@ -260,11 +306,26 @@ const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *
     return NULL;
 }
 
+/* 256 MB of samples, with colour and depth of 4 bytes each: a picture of 3840 x 2160. */
+enum { MSAA_MOST_PIXELS = 8 << 20 };
+
+uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t height_px,
+                       bool to_file) {
+    const struct gn_settings *o = stage->settings;
+    const struct gn_frame_opts *f = &stage->frame_opts;
+    const struct gn_caps *caps = gn_gl_caps(stage->gl);
+    if (o->render.msaa != GN_MSAA_AUTO) return (uint32_t)o->render.msaa;
+    const bool measured = f->output_linear || f->output_float || casts_rays(&f->shadow);
+    if (measured || !(caps->has & 1u << GN_CAP_MSAA4) || !(caps->tiler || to_file)) return 0;
+    return (uint64_t)width_px * height_px <= MSAA_MOST_PIXELS ? 4 : 0;
+}
+
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
     gn_pose_step(&stage->pose, time_ns);
     double turned_deg =
         fmod(stage->settings->scene.turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
     stage->frame_opts.view.turntable_rad = glm_rad((float)turned_deg);
+    gn_stage_aim(&stage->pose, &stage->frame_opts, stage->settings);
 }
 
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,

@@ -60,6 +60,11 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
 /* The part that lives in the current context; stop_gl is legal without it, too. */
 bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, struct gn_err *err);
 void gn_stage_stop_gl(struct gn_stage *stage);
+/* The samples of --msaa. By itself: 4 where they are resolved on the chip (tiling GPUs), or the
+ * picture is a file that is looked at, not measured; 0 where that takes too much memory. Needs GL.
+ */
+uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t height_px,
+                       bool to_file);
 /* The scene and the turntable at a time. */
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns);
 /* Builds the plan of the current pose and frame_opts and makes its GL objects. A capability that

@@ -176,7 +176,6 @@ struct sheared {
     const struct gn_ray *ray;
     int kx, ky, kz;
     double sx, sy, sz;
-    double inverse[3];
 };
 
 static struct sheared shear(const struct gn_ray *ray) {
@@ -194,8 +193,6 @@ static struct sheared shear(const struct gn_ray *ray) {
     s.sx = d[s.kx] / d[s.kz];
     s.sy = d[s.ky] / d[s.kz];
     s.sz = 1 / d[s.kz];
-    /* A component of 0 would give 0 x infinity on a slab's own plane. */
-    for (int k = 0; k < 3; k++) s.inverse[k] = 1 / (d[k] != 0 ? d[k] : 1e-200);
     return s;
 }
 
@@ -221,12 +218,12 @@ static bool hit_triangle(const struct sheared *s, const struct gn_bvh_triangle *
     return true;
 }
 
-static bool hit_box(const struct sheared *s, const struct gn_bvh_node *node, double t_max,
-                    double *enter) {
-    double from = s->ray->t_min, to = t_max;
+static bool hit_box(const struct gn_ray *ray, const double inverse[3],
+                    const struct gn_bvh_node *node, double t_max, double *enter) {
+    double from = ray->t_min, to = t_max;
     for (int k = 0; k < 3; k++) {
-        double a = (node->min[k] - s->ray->origin[k]) * s->inverse[k];
-        double b = (node->max[k] - s->ray->origin[k]) * s->inverse[k];
+        double a = (node->min[k] - ray->origin[k]) * inverse[k];
+        double b = (node->max[k] - ray->origin[k]) * inverse[k];
         double low = a < b ? a : b, high = a < b ? b : a;
         if (low > from) from = low;
         if (high < to) to = high;
@@ -257,6 +254,10 @@ bool gn_bvh_hit(const struct gn_bvh *bvh, const struct gn_ray *ray, bool any, gn
                 const void *context, struct gn_bvh_hit *hit) {
     if (!bvh->node_count) return false;
     struct sheared s = shear(ray);
+    double inverse[3];
+    /* A component of 0 would give 0 x infinity on a slab's own plane. */
+    for (int k = 0; k < 3; k++)
+        inverse[k] = 1 / (ray->direction[k] != 0 ? ray->direction[k] : 1e-200);
     struct {
         uint32_t node;
         double enter;
@@ -265,7 +266,7 @@ bool gn_bvh_hit(const struct gn_bvh *bvh, const struct gn_ray *ray, bool any, gn
     bool found = false;
     *hit = (struct gn_bvh_hit){.t = ray->t_max};
     double enter;
-    if (!hit_box(&s, &bvh->nodes[0], hit->t, &enter)) return false;
+    if (!hit_box(ray, inverse, &bvh->nodes[0], hit->t, &enter)) return false;
     stack[depth].node = 0;
     stack[depth++].enter = enter;
     while (depth) {
@@ -280,7 +281,7 @@ bool gn_bvh_hit(const struct gn_bvh *bvh, const struct gn_ray *ray, bool any, gn
         double e[2];
         bool in[2];
         for (int c = 0; c < 2; c++)
-            in[c] = hit_box(&s, &bvh->nodes[node->first + c], hit->t, &e[c]);
+            in[c] = hit_box(ray, inverse, &bvh->nodes[node->first + c], hit->t, &e[c]);
         int near = in[0] && (!in[1] || e[0] <= e[1]) ? 0 : 1;
         assert(depth + 2 <= STACK);
         for (int c = 0; c < 2; c++) { /* the far one first, so that the near one is on top */
@@ -359,6 +360,7 @@ uint32_t gn_bvh_gather(const struct gn_bvh *bvh, const struct gn_beam *beam, uin
 
 bool gn_bvh_hit_some(const struct gn_bvh *bvh, const struct gn_ray *ray, const uint32_t *list,
                      uint32_t count, gn_bvh_accept accept, const void *context, uint32_t *which) {
+    if (!count) return false;
     const struct sheared s = shear(ray);
     struct gn_bvh_hit hit = {.t = ray->t_max};
     for (uint32_t i = 0; i < count; i++) {

@@ -110,17 +110,22 @@ void gn_mask_count(struct gn_mask_score *score, const struct gn_mask_pixel *pixe
     score->darkened += darkness > .05;
 }
 
-void gn_mask_compare(const struct gn_mask_truth *truth, const float *shot, int channels,
-                     struct gn_mask_score *score) {
+void gn_mask_compare_by(const struct gn_mask_truth *truth, const float *edges, const float *shot,
+                        int channels, struct gn_mask_score *score) {
     size_t pixels = (size_t)truth->width_px * truth->height_px;
-    float *edges = gn_xalloc(pixels, sizeof *edges);
-    gn_mask_edges(truth, edges);
     *score = (struct gn_mask_score){.pixels = pixels};
     for (size_t i = 0; i < pixels; i++)
         gn_mask_count(score, &(struct gn_mask_pixel){.lit = truth->lit[i],
                                                      .away = gn_mask_is_away(truth, edges, i),
                                                      .safe = is_safe(truth, edges, i),
                                                      .shown = shot[i * channels]});
+}
+
+void gn_mask_compare(const struct gn_mask_truth *truth, const float *shot, int channels,
+                     struct gn_mask_score *score) {
+    float *edges = gn_xalloc((size_t)truth->width_px * truth->height_px, sizeof *edges);
+    gn_mask_edges(truth, edges);
+    gn_mask_compare_by(truth, edges, shot, channels, score);
     free(edges);
 }
 

@@ -57,7 +57,10 @@ struct gn_mask_pixel {
     float shown;
 };
 void gn_mask_count(struct gn_mask_score *score, const struct gn_mask_pixel *pixel);
-/* shot: of the same size; the first of so many channels counts. */
+/* shot: of the same size; the first of so many channels counts. compare_by: with the distances that
+ * gn_mask_edges() has found. */
+void gn_mask_compare_by(const struct gn_mask_truth *truth, const float *edges, const float *shot,
+                        int channels, struct gn_mask_score *score);
 void gn_mask_compare(const struct gn_mask_truth *truth, const float *shot, int channels,
                      struct gn_mask_score *score);
 

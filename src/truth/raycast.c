@@ -1,10 +1,12 @@
 #include "truth/raycast.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "core/arena.h"
 
-enum { BLOCKERS_MAX = 24 };
+enum { BLOCKERS_MAX = 24, SPIRAL_MAX = 1024 };
 enum { SEEN = 1, SEEN_FROM_BEHIND = 2, CASTS = 4, MASKED = 8, MIRRORED = 16 };
 
 static double dot(const double a[3], const double b[3]) {
@@ -28,7 +30,7 @@ static void normalise(double v[3]) {
 static uint32_t item_flags(const struct gn_scene *scene, const struct gn_item *item,
                            bool mirrored) {
     const struct gn_material *material = &scene->materials[item->material];
-    if (material->alpha == GN_ALPHA_BLEND) return 0;
+    if (material->alpha == GN_ALPHA_BLEND && !material->shadow_catcher) return 0;
     return SEEN | (material->double_sided ? SEEN_FROM_BEHIND : 0) | (item->casts ? CASTS : 0) |
            (material->alpha == GN_ALPHA_MASK ? MASKED : 0) | (mirrored ? MIRRORED : 0);
 }
@@ -37,6 +39,13 @@ static void place(const mat4 world_from_item, const float p[3], double out[3]) {
     for (int k = 0; k < 3; k++)
         out[k] = (double)world_from_item[0][k] * p[0] + (double)world_from_item[1][k] * p[1] +
                  (double)world_from_item[2][k] * p[2] + (double)world_from_item[3][k];
+}
+
+/* Of a Vogel spiral, the direction to point i. */
+static void spiral_at(int i, double out[2]) {
+    const double angle = i * M_PI * (3 - sqrt(5)); /* the golden angle */
+    out[0] = cos(angle);
+    out[1] = sin(angle);
 }
 
 void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
@@ -64,10 +73,13 @@ void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
     *rays = (struct gn_raycast){.scene = scene};
     gn_bvh_build(&rays->bvh, triangles, count);
     rays->lift_m = 1e-5 * rays->bvh.diagonal;
+    rays->spiral = gn_xalloc(SPIRAL_MAX, sizeof *rays->spiral);
+    for (int i = 0; i < SPIRAL_MAX; i++) spiral_at(i, rays->spiral[i]);
 }
 
 void gn_raycast_finish(struct gn_raycast *rays) {
     gn_bvh_finish(&rays->bvh);
+    free(rays->spiral);
     *rays = (struct gn_raycast){0};
 }
 
@@ -148,19 +160,19 @@ static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *
 
 /* --- the eye --- */
 
-void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_camera *camera,
-                     const mat4 view_from_world, const float position_ws[3], int width_px,
+void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_framing *framing, int width_px,
                      int height_px) {
+    const struct gn_camera *camera = &framing->camera;
     *eye = (struct gn_ray_eye){.orthographic = camera->orthographic,
                                .width_px = width_px,
                                .height_px = height_px,
                                .near_m = camera->near_m,
                                .far_m = camera->far_m > 0 ? camera->far_m : INFINITY};
     for (int k = 0; k < 3; k++) { /* rows of a rigid matrix are the axes */
-        eye->position_ws[k] = position_ws[k];
-        eye->right[k] = view_from_world[k][0];
-        eye->up[k] = view_from_world[k][1];
-        eye->forward[k] = -view_from_world[k][2];
+        eye->position_ws[k] = framing->eye_ws[k];
+        eye->right[k] = framing->view_from_world[k][0];
+        eye->up[k] = framing->view_from_world[k][1];
+        eye->forward[k] = -framing->view_from_world[k][2];
     }
     eye->half_height = camera->orthographic ? camera->ymag_m : tan(camera->yfov_rad / 2);
     eye->half_width = eye->half_height * width_px / height_px;
@@ -168,10 +180,10 @@ void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_camera *camera,
 
 void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
                      int width_px, int height_px) {
-    mat4 view;
-    vec3 position;
-    gn_pose_view(pose, camera, view, position);
-    gn_ray_eye_look(eye, &pose->scene->cameras[camera], view, position, width_px, height_px);
+    const struct gn_framing_opts opts = {.aspect = (float)width_px / (float)height_px};
+    struct gn_framing framing;
+    gn_framing_build(pose, camera, &opts, &framing);
+    gn_ray_eye_look(eye, &framing, width_px, height_px);
 }
 
 static void turn(double v[3], double c, double s) {
@@ -359,8 +371,12 @@ double gn_raycast_share(const struct gn_raycast *rays, const struct gn_ray_lamp 
     int free_ways = 0;
     for (int i = 0; i < samples; i++) {
         double radius = lamp->radius * sqrt((i + .5) / samples);
-        double angle = i * M_PI * (3 - sqrt(5)); /* the golden angle */
-        double a = radius * cos(angle), b = radius * sin(angle), way[3];
+        double direction[2], way[3];
+        if (i < SPIRAL_MAX)
+            memcpy(direction, rays->spiral[i], sizeof direction);
+        else
+            spiral_at(i, direction);
+        double a = radius * direction[0], b = radius * direction[1];
         for (int k = 0; k < 3; k++) way[k] = to[k] + a * u[k] + b * v[k];
         free_ways += is_free(rays, surface, way, lamp->type == GN_LIGHT_DIRECTIONAL, &blockers);
     }

@@ -22,13 +22,14 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "scene/pose.h"
+#include "scene/framing.h"
 #include "truth/bvh.h"
 
 struct gn_raycast {
     const struct gn_scene *scene;
     struct gn_bvh bvh;
     double lift_m; /* shadow rays start this far off a surface: 1e-5 of the scene's diagonal */
+    double (*spiral)[2]; /* directions of the first points of gn_raycast_share() */
 };
 
 /* Copies the triangles of all visible items to where the pose has them; scene must outlive it, pose
@@ -40,8 +41,8 @@ void gn_raycast_finish(struct gn_raycast *rays);
 uint64_t gn_raycast_bytes(const struct gn_scene *scene);
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle); /* one of rays->bvh.triangles */
 
-/* A camera at a pose, and a picture size. A perspective camera keeps its vertical angle; an
- * orthographic one its vertical half-size; the picture's shape gives the horizontal one. Every
+/* A camera at a pose, framed for a picture size (scene/framing.h). An orthographic one keeps its
+ * vertical half-size; the picture's shape gives the horizontal one. Every
  * pixel is square. */
 struct gn_ray_eye {
     double position_ws[3], right[3], up[3], forward[3];
@@ -52,9 +53,8 @@ struct gn_ray_eye {
 };
 void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_t camera,
                      int width_px, int height_px);
-/* The same of any camera, and where it looks from: a rigid matrix. */
-void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_camera *camera,
-                     const mat4 view_from_world, const float position_ws[3], int width_px,
+/* The same of a camera that is framed already. */
+void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_framing *framing, int width_px,
                      int height_px);
 /* Turns it about the vertical axis through a point, anticlockwise seen from above. */
 void gn_ray_eye_turn(struct gn_ray_eye *eye, const double centre_ws[3], double angle_rad);

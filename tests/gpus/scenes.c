@@ -21,6 +21,8 @@ static const char *const materials[] = {
     "'occlusionTexture':{'index':0,'texCoord':1},'doubleSided':true,'alphaMode':'MASK',"
     "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
     "{'index':0}}}",
+    "{'name':'embossed','normalTexture':{'index':0},'pbrMetallicRoughness':{'roughnessFactor':0.5,"
+    "'metallicFactor':0,'baseColorTexture':{'index':0}}}",
     "{'name':'leaf','alphaMode':'MASK','doubleSided':true,'pbrMetallicRoughness':"
     "{'metallicFactor':0,'baseColorTexture':{'index':0}}}",
     "{'name':'glass','alphaMode':'BLEND','pbrMetallicRoughness':{'metallicFactor':0,"
@@ -29,7 +31,7 @@ static const char *const materials[] = {
     "{'name':'picture','extensions':{'KHR_materials_unlit':{}},'pbrMetallicRoughness':"
     "{'baseColorTexture':{'index':0}}}",
 };
-enum { ALL = 5, GLASS = 7, SIGN = 8, MATERIAL_COUNT = sizeof materials / sizeof *materials };
+enum { ALL = 5, GLASS = 8, SIGN = 9, MATERIAL_COUNT = sizeof materials / sizeof *materials };
 
 static void add_texture(struct gn_maker *m) {
     static const uint8_t pixels[16] = {255, 255, 255, 255, 90,  90,  90,  255,

@@ -317,6 +317,19 @@ static bool lay_over(struct bench *b, const char *what) {
     return gn_gl_error_check(b->gl, what, &err) || fail(b, what, err.text);
 }
 
+/* Each operator of the tone, by surfaces and by the last pass; and with alpha. */
+static void try_tones(struct bench *b, const struct stage *s, enum what wanted) {
+    for (int tone = GN_TONE_NONE; tone < GN_TONE_COUNT; tone++)
+        for (int form = 0; form < 3; form++) {
+            struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF, GN_ENCODING_AUTO);
+            opts.tone = (enum gn_tone)tone;
+            opts.unencoded = form == 1;
+            opts.keeps_alpha = form == 2;
+            if (opts.keeps_alpha) opts.background = GN_BACKGROUND_TRANSPARENT;
+            draw(b, s, &opts, wanted, "tone");
+        }
+}
+
 /* Bytes that the target encodes, bytes that shaders do, bytes that nobody does, floats; with
  * samples, and with a stencil. */
 static void try_outputs(struct bench *b, const struct stage *s, enum what wanted) {
@@ -387,7 +400,10 @@ static void try_materials(struct bench *b, enum gn_gpu_scene which, enum gn_tech
     const struct gn_frame_opts opts = opts_of(technique, GN_ENCODING_AUTO);
     stage_open(b, &s, which);
     draw(b, &s, &opts, EVERYTHING, "materials");
-    if (b->full) try_aovs(b, &s);
+    if (b->full) {
+        try_aovs(b, &s);
+        try_tones(b, &s, EVERYTHING);
+    }
     try_outputs(b, &s, b->full ? EVERYTHING : NO_PROGRAM);
     stage_close(&s);
 }
@@ -398,6 +414,7 @@ static void try_pictures(struct bench *b) {
     try_outputs(b, &s, EVERYTHING);
     try_aovs(b, &s);
     try_overlays(b, &s);
+    try_tones(b, &s, EVERYTHING);
     stage_close(&s);
     if (!b->full) {
         try_materials(b, GN_GPU_FEW_MATERIALS, GN_TECHNIQUE_NONE);

@@ -1,15 +1,17 @@
 #!/bin/sh
 # accept_bench.sh [ROUNDS]: the bench scenes against the floor, the shortest program that draws them
-# (FLOOR=floor.c, ../shared/tools/floor/floor.c). The two take turns, ROUNDS times (4); compared is
+# (FLOOR=floor.c, ../shared/tools/floor/floor.c). The two take turns, ROUNDS times; compared is
 # the least CPU time per frame of each, which is the figure that other work on the machine disturbs
 # least. A line a limit. Time on a busy machine is no test: only with LIMITS=1 does a passed limit fail.
+# Two rounds of a few frames, to see that all of it works; with GN_FULL=1 or LIMITS=1 four of 60, for the figures.
 set -eu
 
 gnomon=${GNOMON:-build/release/gnomon}
 build=${BUILD:-build/release}
 floor_c=${FLOOR:-../shared/tools/floor/floor.c}
-rounds=${1:-4}
-frames=${FRAMES:-60}
+long=${GN_FULL:-}${LIMITS:-}
+rounds=${1:-$([ -n "$long" ] && echo 4 || echo 2)}
+frames=${FRAMES:-$([ -n "$long" ] && echo 60 || echo 5)}
 width=1280 height=720
 work=$build/accept-bench
 

@@ -25,7 +25,7 @@ for name in field-point-26 contact-spot soft-spot-low; do
     [ $name != soft-spot-low ] || size=480x360
     for technique in pcss none; do
         [ $technique = none ] && to=without || to=with
-        "$gnomon" render "$scenes/$name.glb" --aov visibility --size $size --shadow $technique -o "$folder/$to/$name.pfm" || complain "a picture of $name"
+        "$gnomon" render "$scenes/$name.glb" --aov visibility --size $size --floor none --shadow $technique -o "$folder/$to/$name.pfm" || complain "a picture of $name"
     done
 done
 

@@ -34,7 +34,6 @@ check_drawn() {
     is_blank "$folder/picture.pfm" && complain "$file: the picture has one colour"
     left_out '"skins":[' skins
     left_out '"targets":[' 'morph targets'
-    left_out '"normalTexture":' 'normal maps'
     left_out '"KHR_materials_variants":{"variants"' 'material variants'
 }
 

@@ -51,7 +51,7 @@ shadow = planar
 show_lights = yes
 [light "Sun"]
 shadow = hard
-light_radius = 0.01
+radius = 0.01
 [button "next"]
 line = GPIO17
 keys = space right

@@ -132,6 +132,13 @@ expect 0 'value: none' get shadow # stronger than the mode
 expect 0 'from: set shadow' get shadow
 expect 0 'value: -1.5' set exposure -1.5
 expect 0 'value: auto' set exposure auto
+expect 0 'value: agx' set tone agx
+expect 0 'value: #0a0b0c' set background '#0A0B0C'
+settle
+expect 0 'value: transparent' set background transparent
+settle
+expect 0 'value: none' set tone none
+expect 0 'value: auto' set background auto
 expect 2 '"99" is not auto or a number from -24 to 24' set exposure 99
 expect 2 "no camera named 'Nosuch'" set camera Nosuch
 settle
@@ -144,7 +151,7 @@ expect 0 'value: no' set captions no
 expect 0 'mode: Plain' mode Plain
 settle
 expect 0 "file: $folder/one.png" screenshot one.png
-"$gnomon" render sundial.glb --no-animation --size 160x90 --shadow none -o two.png || complain 'render'
+"$gnomon" render sundial.glb --no-animation --msaa 0 --size 160x90 --shadow none -o two.png || complain 'render'
 cmp -s one.png two.png || complain 'a screenshot is not what render draws'
 ln -s "$folder/victim" link.png && echo kept > victim
 expect 1 'not replacing it' screenshot link.png
@@ -203,7 +210,7 @@ stop
 start -c kiosk.ini --rotate 90
 settle
 expect 0 'file' screenshot turned.png
-"$gnomon" render sundial.glb --no-animation --size 90x160 --shadow hard -o two.png || complain 'render'
+"$gnomon" render sundial.glb --no-animation --msaa 0 --size 90x160 --shadow hard -o two.png || complain 'render'
 "$compare" turned.png two.png > out || complain "a screenshot of a turned screen is not upright: $(cat out)"
 stop
 

@@ -46,7 +46,7 @@ ctl screenshot plain.png > /dev/null || complain "no picture: $(cat kiosk.err)"
 paint 1.0 0.0 0.0
 cp shaders/lit.frag lit.old
 mv lit.new shaders/lit.frag
-"$gnomon" render --backend egl --size 96x54 --shadow hard --no-animation --shaders shaders -o red.png || complain 'a red picture'
+"$gnomon" render --backend egl --msaa 0 --size 96x54 --shadow hard --no-animation --shaders shaders -o red.png || complain 'a red picture'
 "$gnomon" compare plain.png red.png > /dev/null 2>&1 && complain 'red is no other picture'
 await red.png
 
@@ -65,7 +65,7 @@ cp lit.old shaders/lit.frag
 await plain.png
 sed 's/return step(min(at.z, s.far), map_code(map, at.xy));/return 1.0;/' shaders/lib/map_lit.glsl > lit.new
 mv lit.new shaders/lib/map_lit.glsl
-"$gnomon" render --backend egl --size 96x54 --shadow none --no-animation -o none.png || complain 'a picture without shadows'
+"$gnomon" render --backend egl --msaa 0 --size 96x54 --shadow none --no-animation -o none.png || complain 'a picture without shadows'
 await none.png
 
 ctl quit > /dev/null || complain 'quit'

@@ -49,8 +49,8 @@ const struct gn_planar_turn gn_planar_turns[GN_PLANAR_TURNS] = {
     {"wall", "[0.7071068,0,0,0.7071068]"},
     {"ceiling", "[0,0,1,0]"}};
 
-struct gn_scene *gn_planar_scene(const char *turn, const struct gn_planar_light *light,
-                                 const char *things) {
+static struct gn_scene *make_scene(const char *turn, const struct gn_planar_light *light,
+                                   const char *things, const char *named) {
     struct gn_maker m;
     struct gn_err err = {0};
     char json[4000], children[80] = "0";
@@ -62,10 +62,10 @@ struct gn_scene *gn_planar_scene(const char *turn, const struct gn_planar_light 
     for (const char *p = things; (p = strstr(p, ",{'mesh'")); p++)
         snprintf(children + strlen(children), sizeof children - strlen(children), ",%d", count++);
     snprintf(json, sizeof json,
-             "[{'mesh':0,'scale':[5,1,5],'extras':{'gnomon_plane':true}}%s,{'children':[%s,%d,%d],"
+             "[{'mesh':0,'scale':[5,1,5]%s}%s,{'children':[%s,%d,%d],"
              "'rotation':%s},{%s,'extensions':{'KHR_lights_punctual':{'light':0}}},{'camera':0,"
              "'translation':[3,11,7],'rotation':[-0.4546182,0.1781011,0.0933139,0.8676951]}]",
-             things, children, count + 1, count + 2, turn, light->node);
+             named, things, children, count + 1, count + 2, turn, light->node);
     gn_maker_set(&m, "nodes", json);
     snprintf(json, sizeof json, "[{'nodes':[%d]}]", count);
     gn_maker_set(&m, "scenes", json);
@@ -77,6 +77,21 @@ struct gn_scene *gn_planar_scene(const char *turn, const struct gn_planar_light 
     struct gn_scene *scene = gn_maker_load(&m, NULL, &err);
     if (!scene) fail_msg("%s", err.text);
     return scene;
+}
+
+struct gn_scene *gn_planar_scene(const char *turn, const struct gn_planar_light *light,
+                                 const char *things) {
+    return make_scene(turn, light, things, ",'extras':{'gnomon_plane':true}");
+}
+
+struct gn_scene *gn_planar_room(const struct gn_planar_light *light) {
+    static const char walls[] =
+        ",{'mesh':0,'translation':[0,2.5,-4],'scale':[5,1,2.5],'rotation':[0.7071068,0,0,0.7071068]"
+        "},{'mesh':0,'translation':[-4,2.5,0],'scale':[2.5,1,5],'rotation':[0,0,-0.7071068,"
+        "0.7071068]}";
+    char things[2000];
+    snprintf(things, sizeof things, "%s%s", walls, gn_planar_things);
+    return make_scene(gn_planar_turns[0].turn, light, things, "");
 }
 
 const char gn_planar_things[] =

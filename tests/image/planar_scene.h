@@ -35,4 +35,7 @@ extern const char gn_planar_things[];
 struct gn_scene *gn_planar_scene(const char *turn, const struct gn_planar_light *light,
                                  const char *things);
 
+/* Nothing is named: a floor of 10 m, walls of 5 m behind the things and to the left. */
+struct gn_scene *gn_planar_room(const struct gn_planar_light *light);
+
 #endif

@@ -109,11 +109,24 @@ static void join(const char *const argv[], char *text, size_t size) {
         used += (size_t)snprintf(text + used, size - used, i ? " %s" : "%s", argv[i]);
 }
 
+static bool has_arg(const char *const argv[], const char *arg) {
+    while (*argv && strcmp(*argv, arg) != 0) argv++;
+    return *argv;
+}
+
 bool gn_shot_file(const char *path, int *status, struct gn_err *err, const char *scene,
                   const char *const args[]) {
     const char *argv[64] = {gn_shot_program(), "render", scene, "-o", path};
     int n = 5;
-    while (*args && n < 63) argv[n++] = *args++;
+    static const char *const plain[][2] = {
+        {"--tone", "none"}, {"--msaa", "0"}, {"--floor", "none"}};
+    while (*args && n < 58) argv[n++] = *args++;
+    /* what is compared is what surfaces reflect, unless a test is about how it is shown */
+    for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++) {
+        if (has_arg(argv, plain[i][0])) continue;
+        argv[n++] = plain[i][0];
+        argv[n++] = plain[i][1];
+    }
     struct gn_run *run = malloc(sizeof *run);
     if (!run) abort();
     bool ok = gn_run(run, argv, 0, err);

@@ -1,15 +1,15 @@
 #include "image/table.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/arena.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "image/drawer.h"
 #include "image/shot.h"
 #include "shadow/technique.h"
 #include "truth/contact.h"
@@ -80,28 +80,41 @@ bool gn_table_keep(struct gn_table *table, enum gn_table_kind kind) {
     return any;
 }
 
+/* The options of a row's picture. */
+struct row_args {
+    char size[32], map[16];
+    const char *args[16];
+};
+
+static void row_args_init(struct row_args *a, const struct gn_table_row *row, int width_px,
+                          int height_px) {
+    const bool stencil = strcmp(row->format, "stencil") == 0;
+    snprintf(a->size, sizeof a->size, "%dx%d", width_px, height_px);
+    snprintf(a->map, sizeof a->map, "%u", row->map_px);
+    const char *const args[] = {"--aov",
+                                "visibility",
+                                "--light",
+                                "0",
+                                "--size",
+                                a->size,
+                                "--shadow",
+                                row->technique,
+                                "--map",
+                                a->map,
+                                "--map-format",
+                                stencil ? "auto" : row->format,
+                                "--planar",
+                                stencil ? "stencil" : "mask",
+                                NULL};
+    memcpy(a->args, args, sizeof args);
+}
+
+/* As a user would: for contacts, and for what is kept of a failure. */
 static bool take_shot(struct gn_picture *shot, const struct gn_table_row *row, const char *scene,
                       int width_px, int height_px, struct gn_err *err) {
-    char size[32], map[16];
-    const bool stencil = strcmp(row->format, "stencil") == 0;
-    snprintf(size, sizeof size, "%dx%d", width_px, height_px);
-    snprintf(map, sizeof map, "%u", row->map_px);
-    const char *args[] = {"--aov",
-                          "visibility",
-                          "--light",
-                          "0",
-                          "--size",
-                          size,
-                          "--shadow",
-                          row->technique,
-                          "--map",
-                          map,
-                          "--map-format",
-                          stencil ? "auto" : row->format,
-                          "--planar",
-                          stencil ? "stencil" : "mask",
-                          NULL};
-    if (!gn_shot(shot, NULL, err, "pfm", scene, args)) return false;
+    struct row_args a;
+    row_args_init(&a, row, width_px, height_px);
+    if (!gn_shot(shot, NULL, err, "pfm", scene, a.args)) return false;
     if (shot->width_px == width_px && shot->height_px == height_px) return true;
     gn_picture_finish(shot);
     return gn_fail(err, "%s: the picture is not of the size that was asked for", scene);
@@ -109,26 +122,20 @@ static bool take_shot(struct gn_picture *shot, const struct gn_table_row *row, c
 
 struct job {
     struct gn_table *table;
-    pthread_mutex_t lock;
-    atomic_int next_scene;
     int done, total;
 };
 
 static void note_failure(struct job *job, const struct gn_err *err) {
-    pthread_mutex_lock(&job->lock);
     if (!job->table->failures++)
         snprintf(job->table->failure, sizeof job->table->failure, "%s", err->text);
-    pthread_mutex_unlock(&job->lock);
 }
 
 static void note_progress(struct job *job) {
-    pthread_mutex_lock(&job->lock);
     job->done++;
     if (job->table->progress)
         if (isatty(STDERR_FILENO))
             fprintf(stderr, "\r%d of %d%s", job->done, job->total,
                     job->done < job->total ? "" : "\n");
-    pthread_mutex_unlock(&job->lock);
 }
 
 static void cell_name(const struct gn_table_row *row, int scene, char *out, size_t size) {
@@ -142,6 +149,7 @@ struct sight {
     struct gn_truth truth;
     uint8_t *planar_lit; /* per pixel */
     uint64_t plane_pixels;
+    float *edges, *planar_edges; /* distances to them, per pixel */
 };
 
 static bool sight_load(struct sight *sight, const char *path, const struct gn_truth_opts *opts,
@@ -162,11 +170,18 @@ static bool sight_load(struct sight *sight, const char *path, const struct gn_tr
         sight->plane_pixels += on_plane;
     }
     gn_scene_destroy(scene);
+    sight->edges = gn_xalloc(2 * count, sizeof *sight->edges);
+    sight->planar_edges = sight->edges + count;
+    gn_mask_edges(mask, sight->edges);
+    struct gn_mask_truth planar = *mask;
+    planar.lit = sight->planar_lit;
+    gn_mask_edges(&planar, sight->planar_edges);
     return true;
 }
 
 static void sight_finish(struct sight *sight) {
     free(sight->planar_lit);
+    free(sight->edges);
     gn_truth_finish(&sight->truth);
 }
 
@@ -179,21 +194,26 @@ static double reach_of(const struct gn_table_row *row) {
 }
 
 /* Planar shadows: off the plane all is lit, and shares are of the plane's pixels. */
-static void measure(struct job *job, struct sight *sight, struct gn_table_row *row, int scene,
-                    const char *path) {
+static void measure(struct job *job, struct gn_drawer *drawer, struct sight *sight,
+                    struct gn_table_row *row, int scene) {
     struct gn_truth *truth = &sight->truth;
     struct gn_picture shot;
     struct gn_err err = {{0}, GN_EXIT_RUNTIME};
     char name[100];
     gn_truth_band(truth, row->map_px);
     gn_truth_safe(truth, row->map_px, reach_of(row));
-    if (!take_shot(&shot, row, path, truth->mask.width_px, truth->mask.height_px, &err)) {
+    struct gn_mask_truth mask = truth->mask;
+    struct row_args args;
+    row_args_init(&args, row, mask.width_px, mask.height_px);
+    gn_picture_init(&shot, mask.width_px, mask.height_px, 4);
+    if (!gn_drawer_draw(drawer, args.args, shot.data, &err)) {
         note_failure(job, &err);
+        gn_picture_finish(&shot);
         return;
     }
-    struct gn_mask_truth mask = truth->mask;
     if (is_planar(row)) mask.lit = sight->planar_lit;
-    gn_mask_compare(&mask, shot.data, shot.channels, &row->scores[scene]);
+    gn_mask_compare_by(&mask, is_planar(row) ? sight->planar_edges : sight->edges, shot.data,
+                       shot.channels, &row->scores[scene]);
     if (is_planar(row)) row->scores[scene].pixels = sight->plane_pixels;
     row->measured[scene] = true;
     cell_name(row, scene, name, sizeof name);
@@ -211,37 +231,30 @@ static void measure_scene(struct job *job, int scene) {
     struct gn_err err = {{0}, GN_EXIT_RUNTIME};
     char path[600];
     scene_path(table, scene, path, sizeof path);
-    if (!sight_load(&sight, path, &(struct gn_truth_opts){.threads = 1}, &err)) {
+    if (!sight_load(&sight, path, NULL, &err)) {
         note_failure(job, &err);
         return;
     }
     table->band_px[scene] =
         table->row_count ? gn_truth_band(&sight.truth, table->rows[0].map_px) : 2;
+    struct gn_drawer *drawer = gn_drawer_create(path);
     for (int r = 0; r < table->row_count; r++) {
-        measure(job, &sight, &table->rows[r], scene, path);
+        measure(job, drawer, &sight, &table->rows[r], scene);
         note_progress(job);
     }
+    gn_drawer_destroy(drawer);
     const struct gn_mask_score *s = &table->rows[0].scores[scene];
     if (s->pixels)
         table->away[scene] = (double)(s->away_lit + s->away_dark) / (double)(s->lit + s->dark);
     sight_finish(&sight);
 }
 
-static void *work(void *data) {
-    struct job *job = data;
-    for (int scene; (scene = atomic_fetch_add(&job->next_scene, 1)) < GN_TABLE_SCENES;)
-        if (job->table->scenes[scene]) measure_scene(job, scene);
-    return NULL;
-}
-
 void gn_table_run(struct gn_table *table) {
-    struct job job = {.table = table, .lock = PTHREAD_MUTEX_INITIALIZER};
-    pthread_t other;
+    struct job job = {.table = table};
     for (int i = 0; i < GN_TABLE_SCENES; i++)
         if (table->scenes[i]) job.total += table->row_count;
-    bool two = pthread_create(&other, NULL, work, &job) == 0;
-    work(&job);
-    if (two) pthread_join(other, NULL);
+    for (int i = 0; i < GN_TABLE_SCENES; i++)
+        if (table->scenes[i]) measure_scene(&job, i);
 }
 
 /* --- judging --- */

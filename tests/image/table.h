@@ -51,7 +51,7 @@ void gn_table_add(struct gn_table *table, const char *technique, const char *for
 /* Leaves out the scenes of other kinds and takes this one's name as title; false if none is left.
  */
 bool gn_table_keep(struct gn_table *table, enum gn_table_kind kind);
-/* Renders and compares everything, two scenes at a time. */
+/* Draws and compares everything: with what draws for render, but in this process. */
 void gn_table_run(struct gn_table *table);
 
 /* Of a row, over the measured scenes: means and worst, in per cent. */

@@ -27,17 +27,38 @@ static struct gn_picture shoot(const char *path, const struct gn_picture *truth,
     return shot;
 }
 
-static char *make_of_size(int scene, struct gn_picture *truth, int width_px, int height_px) {
+/* A scene's file and its truth, which is cast once. */
+static struct {
+    char *path;
+    struct gn_picture truth;
+} made[GN_PENUMBRA_ALL];
+
+static const char *make_of_size(int scene, struct gn_picture *truth, int width_px, int height_px) {
     struct gn_err err = {0};
-    char *path = gn_penumbra_write(scene, &err);
-    if (!path || !gn_penumbra_truth(truth, path, false, width_px, height_px, &err))
+    struct gn_picture *kept = &made[scene].truth;
+    if (!made[scene].path && !(made[scene].path = gn_penumbra_write(scene, &err)))
         fail_msg("%s", err.text);
-    return path;
+    if (kept->width_px != width_px) {
+        gn_picture_finish(kept);
+        if (!gn_penumbra_truth(kept, made[scene].path, false, width_px, height_px, &err))
+            fail_msg("%s", err.text);
+    }
+    *truth = *kept;
+    return made[scene].path;
 }
 
-static char *make(int scene, struct gn_picture *truth) {
+static const char *make(int scene, struct gn_picture *truth) {
     return make_of_size(scene, truth, gn_shot_full() ? FULL_W : QUICK_W,
                         gn_shot_full() ? FULL_H : QUICK_H);
+}
+
+static int finish_made(void **state) {
+    (void)state;
+    for (int i = 0; i < GN_PENUMBRA_ALL; i++) {
+        gn_picture_finish(&made[i].truth);
+        free(made[i].path);
+    }
+    return 0;
 }
 
 static struct gn_penumbra_score score_of(const char *path, const struct gn_picture *truth,
@@ -86,16 +107,14 @@ static void test_no_split_is_seen_in_a_penumbra(void **state) {
     (void)state;
     static const char *const techniques[] = {"pcss", "cone", "vssm", "smsm"};
     struct gn_picture truth;
-    char *path = make_of_size(GN_PENUMBRA_FIELD, &truth, FULL_W, FULL_H);
+    const char *path = make_of_size(GN_PENUMBRA_FIELD, &truth, FULL_W, FULL_H);
     for (int t = 0; t < 4; t++) check_splits(path, &truth, techniques[t]);
-    gn_picture_finish(&truth);
-    free(path);
 }
 
 static void check_scene(int scene) {
     static const char *const formats[] = {"r16f", "depth", "r32ui", "rgba8", "r16f-raw"};
     struct gn_picture truth;
-    char *path = make(scene, &truth);
+    const char *path = make(scene, &truth);
     struct gn_penumbra_score hard = score_of(path, &truth, "hard", "r16f");
     for (int f = 0; f < (gn_shot_full() ? 5 : 2); f++) {
         struct gn_penumbra_score pcss = score_of(path, &truth, "pcss", formats[f]);
@@ -107,8 +126,6 @@ static void check_scene(int scene) {
         assert_true(pcss.soft <= .3 * hard.soft);
         assert_true(pcss.rest <= .02);
     }
-    gn_picture_finish(&truth);
-    free(path);
 }
 
 static void test_pcss(void **state) {
@@ -120,7 +137,7 @@ static void test_pcss(void **state) {
 static void check_cones(int scene) {
     static const char *const formats[] = {"rg16f", "rg16f-bits", "rg16f-bytes"};
     struct gn_picture truth;
-    char *path = make(scene, &truth);
+    const char *path = make(scene, &truth);
     const struct gn_penumbra_score pcss = score_of(path, &truth, "pcss", "auto");
     for (int f = 0; f < (gn_shot_full() || scene == GN_PENUMBRA_SEAM ? 3 : 1); f++) {
         const struct gn_penumbra_score cone = score_of(path, &truth, "cone", formats[f]);
@@ -130,8 +147,6 @@ static void check_cones(int scene) {
         assert_true(cone.soft <= pcss.soft);
         assert_true(cone.rest <= .01);
     }
-    gn_picture_finish(&truth);
-    free(path);
 }
 
 static void test_cones(void **state) {
@@ -143,7 +158,7 @@ static void test_cones(void **state) {
 static void check_tables(int scene) {
     static const char *const techniques[] = {"vssm", "smsm"};
     struct gn_picture truth;
-    char *path = make(scene, &truth);
+    const char *path = make(scene, &truth);
     struct gn_penumbra_score hard = score_of(path, &truth, "hard", "r16f");
     for (int t = 0; t < 2; t++) {
         struct gn_penumbra_score score = score_of(path, &truth, techniques[t], "auto");
@@ -155,8 +170,6 @@ static void check_tables(int scene) {
         assert_true(score.soft <= .5 * hard.soft);
         assert_true(score.rest <= .03);
     }
-    gn_picture_finish(&truth);
-    free(path);
 }
 
 static void test_summed_area_tables(void **state) {
@@ -181,24 +194,20 @@ static void test_moments_of_a_field(void **state) {
     (void)state;
     static const char *const techniques[] = {"vsm", "evsm", "msm"};
     struct gn_picture truth;
-    char *path = make(GN_PENUMBRA_FIELD, &truth);
+    const char *path = make(GN_PENUMBRA_FIELD, &truth);
     for (int t = 0; t < 3; t++) {
         struct gn_penumbra_score score = score_of(path, &truth, techniques[t], "auto");
         print_message("field   %-8s rest %.4f\n", techniques[t], score.rest);
         assert_true(score.rest <= .03);
     }
-    gn_picture_finish(&truth);
-    free(path);
 }
 
 static void test_the_edge_of_a_half_plane_is_exact(void **state) {
     (void)state;
     static const char *const techniques[] = {"pcss", "cone", "vssm", "smsm"};
     struct gn_picture truth;
-    char *path = make(GN_PENUMBRA_EDGE, &truth);
+    const char *path = make(GN_PENUMBRA_EDGE, &truth);
     for (int t = 0; t < 4; t++) check_edge(path, &truth, techniques[t]);
-    gn_picture_finish(&truth);
-    free(path);
 }
 
 /* A filter three texels wide: the map is coarse, so that its penumbra is many pixels wide. */
@@ -206,7 +215,7 @@ static void test_disks_are_monotone_and_hardly_grainy(void **state) {
     (void)state;
     static const char *const techniques[] = {"disk", "poisson"};
     struct gn_picture truth;
-    char *path = make(GN_PENUMBRA_EDGE, &truth);
+    const char *path = make(GN_PENUMBRA_EDGE, &truth);
     for (int t = 0; t < 2; t++) {
         struct gn_err err = {0};
         struct gn_picture shot, again;
@@ -226,8 +235,6 @@ static void test_disks_are_monotone_and_hardly_grainy(void **state) {
         gn_picture_finish(&shot);
         gn_picture_finish(&again);
     }
-    gn_picture_finish(&truth);
-    free(path);
 }
 
 int main(void) {
@@ -240,5 +247,5 @@ int main(void) {
         cmocka_unit_test(test_the_edge_of_a_half_plane_is_exact),
         cmocka_unit_test(test_disks_are_monotone_and_hardly_grainy),
     };
-    return cmocka_run_group_tests_name("penumbra", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("penumbra", tests, NULL, finish_made);
 }

@@ -188,6 +188,36 @@ static void test_floor_and_wall_agree_with_truth(void **state) {
     }
 }
 
+/* Nothing is named: a floor and two walls are found where the lamp throws shadows on them. */
+static void test_a_room_is_found_and_agrees_with_truth(void **state) {
+    (void)state;
+    static float shares[PIXELS];
+    for (size_t l = 0; l < GN_PLANAR_LIGHTS; l++) {
+        struct gn_scene *scene = gn_planar_room(&gn_planar_lights[l]);
+        struct soft s;
+        struct gn_truth truth;
+        int planes = 0, on[GN_PLANES_MAX + 1] = {0};
+        scene->lights[0].radius = l ? 0.5f : 0.2f;
+        assert_false(scene->planes_named);
+        find_shares(scene, shares);
+        find_truth(&truth, scene);
+        for (uint32_t i = 0; i < scene->item_count; i++)
+            if (scene->items[i].plane > planes) planes = scene->items[i].plane;
+        for (int i = 0; i < PIXELS; i++)
+            if (shares[i] >= 0) on[scene->items[truth.mask.item[i]].plane]++;
+        gn_truth_finish(&truth);
+        begin(&s, scene, 64, 0);
+        draw(&s);
+        const double error = error_of(shares);
+        printf("%s: %.4f, %d planes, pixels on them %d, %d, %d\n", gn_planar_lights[l].name, error,
+               planes, on[1], on[2], on[3]);
+        assert_int_equal(planes, 3);
+        assert_true(on[1] > 400 && on[2] + on[3] > 40 && error <= .02);
+        end(&s);
+        gn_scene_destroy(scene);
+    }
+}
+
 /* Each plane has one normal and one white, and a sun: its colour is a line over visibility. */
 static void test_both_planes_have_their_shadow_in_colour(void **state) {
     (void)state;
@@ -363,6 +393,7 @@ int main(void) {
         cmocka_unit_test(test_a_lost_mask_is_drawn_again),
         cmocka_unit_test(test_a_point_is_drawn_once),
         cmocka_unit_test(test_floor_and_wall_agree_with_truth),
+        cmocka_unit_test(test_a_room_is_found_and_agrees_with_truth),
         cmocka_unit_test(test_both_planes_have_their_shadow_in_colour),
         cmocka_unit_test(test_lights_of_two_passes_reach_both_planes),
         cmocka_unit_test(test_penumbrae_agree_with_truth),

@@ -70,8 +70,8 @@ static void draw_moved(const struct gn_plan *plan, uint32_t split, float factor,
     struct gn_pass *last = &plan->passes[plan->pass_count - 1];
     const struct gn_pass before = *last;
     assert_int_equal(last->target.kind, GN_TARGET_OUTPUT);
-    assert_int_equal(last->constant_count, PASS_SIZE);
-    memcpy(constants, before.constants, sizeof constants);
+    assert_in_range(last->constant_count, PASS_CASCADES + 1, PASS_SIZE);
+    memcpy(constants, before.constants, last->constant_count * sizeof *constants);
     constants[PASS_CASCADES + CASCADES_ZONES][split] *= factor;
     last->constants = (const float(*)[4])constants;
     if (!gn_gl_run(stage.gl, plan, NULL, &err)) fail_msg("%s", err.text);

@@ -1,7 +1,8 @@
-/* `make readme`: the table of techniques in src/shadow/README.md, measured: tool_readme BUDGETS. A
- * row for each technique, kind of light and map encoding: errors against truth, of the penumbra
- * too; processor time on the software driver; instructions of the lit program on real GPUs, out of
- * the folder of budgets that tests/gpus writes; bytes. Markdown, on stdout. */
+/* `make readme`: the table of techniques in src/shadow/README.md, measured: tool_readme BUDGETS
+ * [TECHNIQUE]. A row for each technique, kind of light and map encoding: errors against truth, of
+ * the penumbra too; processor time on the software driver; instructions of the lit program on real
+ * GPUs, out of the folder of budgets that tests/gpus writes; bytes. Markdown, on stdout; of one
+ * technique if it is named. */
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,9 +39,15 @@ static bool is_stencil(const struct gn_table_row *row) {
     return strcmp(row->format, "stencil") == 0;
 }
 
+/* How many points of the lamp a planar mask is the mean of: soft-64; 0: it is not. */
+static int points_of(const struct gn_table_row *row) {
+    return strncmp(row->format, "soft-", 5) == 0 ? atoi(row->format + 5) : 0;
+}
+
 static enum gn_encoding encoding_of(const struct gn_table_row *row) {
     enum gn_encoding encoding = GN_ENCODING_MASK;
     if (is_stencil(row)) return GN_ENCODING_STENCIL;
+    if (points_of(row) > 0) return GN_ENCODING_MEAN;
     if (technique_of(row)->reads_both) return GN_ENCODING_DEPTH;
     if (technique_of(row)->filter) return GN_ENCODING_R32UI;
     if (!technique_of(row)->on_plane) gn_encoding_find(row->format, &encoding, NULL);
@@ -56,6 +63,7 @@ static enum gn_moments moments_of(const struct gn_table_row *row) {
 
 static const char *format_of(const struct gn_table_row *row) {
     const enum gn_moments moments = moments_of(row);
+    if (points_of(row) > 0) return row->format;
     return moments ? gn_moments[moments].name : gn_encodings[encoding_of(row)].name;
 }
 
@@ -89,12 +97,25 @@ static void print_signed(double value, int digits) {
     printf(nothing ? " | %.*f %%" : " | %+.*f %%", digits, nothing ? 0.0 : value);
 }
 
-static struct gn_picture shoot(const char *path, const char *technique, const char *format) {
+static struct gn_picture shoot(const char *path, const struct gn_table_row *row) {
     struct gn_err err = {0};
     struct gn_picture shot;
-    const char *const args[] = {"--aov",        "visibility", "--size",   "480x360",
-                                "--backend",    "egl",        "--shadow", technique,
-                                "--map-format", format,       NULL};
+    const bool soft = points_of(row) > 0;
+    const char *const args[] = {"--aov",
+                                "visibility",
+                                "--size",
+                                "480x360",
+                                "--backend",
+                                "egl",
+                                "--shadow",
+                                row->technique,
+                                "--map-format",
+                                soft ? "auto" : row->format,
+                                "--planar",
+                                soft ? "soft" : "mask",
+                                "--planar-points",
+                                soft ? row->format + 5 : "64",
+                                NULL};
     if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) quit(err.text);
     return shot;
 }
@@ -113,25 +134,54 @@ static void make_penumbrae(struct penumbra *p) {
     }
 }
 
-/* RMSE over the penumbrae of this light's scenes; of a sun also the half-plane's width and energy.
- */
+/* Planar shadows are on the scene's plane alone: makes both lit elsewhere. False: there is none. */
+static bool keep_plane(const char *path, struct gn_picture *truth, struct gn_picture *shot) {
+    struct gn_err err = {0};
+    struct gn_truth sight;
+    bool any = false;
+    struct gn_scene *scene = gn_scene_load(path, NULL, NULL, &err);
+    if (!scene || !gn_truth_load(&sight, path,
+                                 &(struct gn_truth_opts){.width_px = truth->width_px,
+                                                         .height_px = truth->height_px},
+                                 &err))
+        quit(err.text);
+    for (int i = 0; i < truth->width_px * truth->height_px; i++) {
+        const int32_t item = sight.mask.item[i];
+        const bool on_plane = item >= 0 && scene->items[item].plane;
+        any |= on_plane;
+        if (!on_plane) truth->data[i] = shot->data[i * shot->channels] = 1;
+    }
+    gn_truth_finish(&sight);
+    gn_scene_destroy(scene);
+    return any;
+}
+
+/* RMSE over the penumbrae of this light's scenes, of soft planar ones over those on planes; of a
+ * sun also the half-plane's width and energy. */
 static void print_penumbra(const struct penumbra *p, const struct gn_table_row *row, int light) {
     double sum = 0;
     int count = 0;
     struct gn_penumbra_edge edge = {0};
-    bool everywhere = !technique_of(row)->on_plane; /* what others see on all surfaces */
-    for (int i = 0; i < GN_PENUMBRA_COUNT && everywhere; i++) {
+    const bool everywhere = !technique_of(row)->on_plane; /* what others see on all surfaces */
+    const bool soft = points_of(row) > 0;
+    for (int i = 0; i < GN_PENUMBRA_COUNT && (everywhere || soft); i++) {
         if (gn_penumbra_light(i) != lights[light].type) continue;
-        struct gn_picture shot = shoot(p->path[i], row->technique, row->format);
+        struct gn_picture shot = shoot(p->path[i], row), truth;
         struct gn_penumbra_score score;
-        gn_penumbra_score(&p->truth[i], &shot, &score);
-        if (i == GN_PENUMBRA_EDGE) gn_penumbra_edge(&p->truth[i], &shot, &edge);
+        gn_picture_init(&truth, shot.width_px, shot.height_px, 1);
+        memcpy(truth.data, p->truth[i].data,
+               (size_t)shot.width_px * (size_t)shot.height_px * sizeof *truth.data);
+        if (everywhere || keep_plane(p->path[i], &truth, &shot)) {
+            gn_penumbra_score(&truth, &shot, &score);
+            sum += score.soft;
+            count++;
+        }
+        if (i == GN_PENUMBRA_EDGE) gn_penumbra_edge(&truth, &shot, &edge);
+        gn_picture_finish(&truth);
         gn_picture_finish(&shot);
-        sum += score.soft;
-        count++;
     }
     print_share(count ? sum / count : NAN);
-    if (light == 0 && everywhere) {
+    if (light == 0 && (everywhere || soft)) {
         print_signed(100 * (edge.width / edge.width_truth - 1), 0);
         print_signed(100 * edge.energy, 1);
     } else
@@ -144,6 +194,7 @@ static void print_penumbra(const struct penumbra *p, const struct gn_table_row *
 static double cost_of(const struct gn_table_row *row) {
     struct gn_err err = {0};
     char list[64];
+    const bool soft = points_of(row) > 0;
     snprintf(list, sizeof list, "none,%s", row->technique);
     const char *const argv[] = {gn_shot_program(),
                                 "bench",
@@ -151,9 +202,13 @@ static double cost_of(const struct gn_table_row *row) {
                                 "--shadow",
                                 list,
                                 "--map-format",
-                                is_stencil(row) ? "auto" : row->format,
+                                is_stencil(row) || soft ? "auto" : row->format,
                                 "--planar",
-                                is_stencil(row) ? "stencil" : "mask",
+                                is_stencil(row) ? "stencil"
+                                : soft          ? "soft"
+                                                : "mask",
+                                "--planar-points",
+                                soft ? row->format + 5 : "64",
                                 "--backend",
                                 "egl",
                                 "--frames",
@@ -195,7 +250,8 @@ static int instructions_of(const char *budgets, const char *gpu, const char *pro
 static void print_instructions(const char *budgets, const struct gn_table_row *row, int light) {
     char program[200];
     snprintf(program, sizeof program, "lit BASE_TEXTURE|SPECULAR|HEMISPHERE, %s %s %s",
-             lights[light].shader, row->technique, format_of(row));
+             lights[light].shader, row->technique,
+             points_of(row) > 0 ? gn_encodings[encoding_of(row)].name : format_of(row));
     for (int i = 0; i < GPUS; i++) {
         const int count = instructions_of(budgets, gpus[i], program);
         if (count)
@@ -207,7 +263,7 @@ static void print_instructions(const char *budgets, const struct gn_table_row *r
 
 static double megabytes_of(const struct gn_table_row *row, int light) {
     enum gn_encoding encoding = encoding_of(row);
-    double tiles = light == 2 && encoding != GN_ENCODING_MASK ? 6 : 1;
+    double tiles = light == 2 && !technique_of(row)->on_plane ? 6 : 1;
     unsigned filtered = 2 * gn_moments[moments_of(row)].texel_bytes; /* one on the way */
     if (gn_filters[technique_of(row)->filter].halves) filtered /= 4;
     const unsigned bytes = gn_encodings[encoding].texel_bytes + filtered;
@@ -237,10 +293,12 @@ static void print_row(const char *budgets, const struct penumbra *p, const struc
     printf(" | %.1f |\n", megabytes_of(row, light));
 }
 
-static void add_rows(struct gn_table *table) {
+/* only: of this technique; NULL: all. */
+static void add_rows(struct gn_table *table, const char *only) {
     static const char *const by_hand[] = {"r16f", "depth", "r32ui", "rgba8", "r16f-raw"};
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++) {
         const struct gn_technique_row *row = &gn_techniques[t];
+        if (only && strcmp(row->name, only) != 0) continue;
         if (row->on_plane) {
             gn_table_add(table, row->name, "auto", 1024);
             gn_table_add(table, row->name, "stencil", 1024);
@@ -253,18 +311,27 @@ static void add_rows(struct gn_table *table) {
     }
 }
 
+/* Their edges are those of the mask where the lamp has no size, as in the scenes of the table. */
+static void add_soft_rows(struct gn_table *table, const char *only) {
+    if (only && strcmp("planar", only) != 0) return;
+    gn_table_add(table, "planar", "soft-64", 1024);
+    gn_table_add(table, "planar", "soft-256", 1024);
+}
+
 int main(int argc, char **argv) {
     static struct gn_table table;
     static struct penumbra penumbra;
     struct gn_err err = {0};
-    if (argc != 2) quit("usage: tool_readme BUDGETS");
+    if (argc != 2 && argc != 3) quit("usage: tool_readme BUDGETS [TECHNIQUE]");
+    const char *only = argc > 2 ? argv[2] : NULL;
     char *folder = gn_table_scenes(false, &err);
     if (!folder) quit(err.text);
     table.folder = folder;
     for (int i = 0; i < GN_TABLE_SCENES; i++) table.scenes[i] = true;
-    add_rows(&table);
+    add_rows(&table, only);
     gn_table_run(&table);
     if (table.failures) quit(table.failure);
+    add_soft_rows(&table, only);
     make_penumbrae(&penumbra);
     printf("| technique | light | map | acne | darkening | over 5 %% | leak | gap | wrong | "
            "penumbra | width | energy | time |"

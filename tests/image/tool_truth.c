@@ -7,14 +7,16 @@
 
 #include "image/shot.h"
 #include "image/table.h"
+#include "shadow/technique.h"
 
 static const char usage[] =
     "usage: tool_truth [options]\n"
     "  --scenes A-B[,C..]  which of 0-38 (all; 24-29: point lights;\n"
     "                      30-38: coarse meshes with smooth normals)\n"
-    "  --technique LIST    of hard,pcf,pcf2,pcf3,pcf5,planar,.. (those six)\n"
-    "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f;\n"
-    "                      planar has its own: a mask, as auto, and stencil)\n"
+    "  --technique LIST    of hard,pcf,pcf2,.. (all)\n"
+    "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f, or\n"
+    "                      auto where the map is filtered; planar has its own: a mask, as auto,\n"
+    "                      and stencil)\n"
     "  --map LIST          of sizes in pixels (1024,256)\n"
     "  --save DIR          shot, truth and diff of every cell, as PNG\n"
     "  --no-contact        leave out the gaps at contacts\n"
@@ -76,27 +78,38 @@ static int split(char *list, const char *out[], int room) {
     return count;
 }
 
-static void add_rows(struct gn_table *table, const struct arguments *a, unsigned map_px) {
-    const char *techniques[] = {"hard", "pcf", "pcf2", "pcf3", "pcf5", "planar", NULL, NULL};
-    const char *all[] = {"depth", "r16f", "r16f-raw", "r32ui", "rgba8"};
-    const char *given[8], *given_techniques[16];
-    char formats[200], list[200];
-    int format_count = 0, technique_count = 6;
-    snprintf(formats, sizeof formats, "%s", a->formats ? a->formats : "");
-    snprintf(list, sizeof list, "%s", a->techniques ? a->techniques : "");
-    if (a->formats) format_count = split(formats, given, 8);
-    if (a->techniques) technique_count = split(list, given_techniques, 16);
-    for (int t = 0; t < technique_count; t++) {
-        const char *technique = a->techniques ? given_techniques[t] : techniques[t];
-        if (!strcmp(technique, "planar")) {
-            gn_table_add(table, "planar", "auto", map_px);
-            gn_table_add(table, "planar", "stencil", map_px);
-            continue;
-        }
-        int count = a->formats ? format_count : !strcmp(technique, "hard") ? 5 : 2;
-        for (int f = 0; f < count; f++)
-            gn_table_add(table, strdup(technique), strdup(a->formats ? given[f] : all[f]), map_px);
+/* As the techniques page has them: hard in every encoding, what reads a map itself in two, and what
+ * filters a map in the one that it takes itself. */
+static bool add_technique(struct gn_table *table, const char *name, const char *const *given,
+                          int given_count, unsigned map_px) {
+    static const char *const all[] = {"depth", "r16f", "r16f-raw", "r32ui", "rgba8"};
+    enum gn_technique technique;
+    if (!gn_technique_find(name, strlen(name), &technique) || technique == GN_TECHNIQUE_NONE)
+        return false;
+    const struct gn_technique_row *row = &gn_techniques[technique];
+    if (row->on_plane || (row->filter && !given_count)) {
+        gn_table_add(table, row->name, "auto", map_px);
+        if (row->on_plane) gn_table_add(table, row->name, "stencil", map_px);
+        return true;
     }
+    const int count = given_count ? given_count : technique == GN_TECHNIQUE_HARD ? 5 : 2;
+    for (int f = 0; f < count; f++)
+        gn_table_add(table, row->name, strdup(given_count ? given[f] : all[f]), map_px);
+    return true;
+}
+
+static bool add_rows(struct gn_table *table, const struct arguments *a, unsigned map_px) {
+    const char *formats[8], *techniques[GN_TECHNIQUE_COUNT];
+    char format_list[200], technique_list[200];
+    snprintf(format_list, sizeof format_list, "%s", a->formats ? a->formats : "");
+    snprintf(technique_list, sizeof technique_list, "%s", a->techniques ? a->techniques : "");
+    const int format_count = split(format_list, formats, 8);
+    int technique_count = split(technique_list, techniques, GN_TECHNIQUE_COUNT);
+    for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT && !a->techniques; t++)
+        techniques[technique_count++] = gn_techniques[t].name;
+    for (int t = 0; t < technique_count; t++)
+        if (!add_technique(table, techniques[t], formats, format_count, map_px)) return false;
+    return true;
 }
 
 static bool add_maps(struct gn_table *table, const struct arguments *a) {
@@ -107,7 +120,7 @@ static bool add_maps(struct gn_table *table, const struct arguments *a) {
     for (int i = 0; i < count; i++) {
         long px = strtol(sizes[i], NULL, 10);
         if (px < 1 || px > 16384) return false;
-        add_rows(table, a, (unsigned)px);
+        if (!add_rows(table, a, (unsigned)px)) return false;
     }
     return true;
 }
@@ -157,7 +170,8 @@ int main(int argc, char **argv) {
     struct arguments a = {.contact = true};
     struct gn_err err = {{0}, GN_EXIT_RUNTIME};
     if (!parse(argc, argv, &a)) return refuse("wrong options");
-    if (!fill(&table, &a, NULL)) return refuse("wrong list of scenes, or wrong map size");
+    if (!fill(&table, &a, NULL))
+        return refuse("wrong list of scenes or techniques, or wrong map size");
     char *folder = gn_table_scenes(false, &err);
     if (!folder) {
         fprintf(stderr, "tool_truth: %s\n", err.text);

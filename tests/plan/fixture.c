@@ -49,3 +49,18 @@ void gn_plan_expect(const struct gn_plan *plan, const char *name) {
     free(text);
     assert_true(same);
 }
+
+void gn_plan_add_lights(struct gn_plan_fixture *f, struct gn_light lights[13]) {
+    static const char *const names[] = {"Lamp 1", "Lamp 2", "Lamp 3", "Lamp 4", "Lamp 5",
+                                        "Lamp 6", "Lamp 7", "Lamp 8", "Lamp 9", "Lamp 10"};
+    memcpy(lights, f->scene->lights, 3 * sizeof *lights);
+    lights[2].technique = "none";
+    for (int i = 0; i < 10; i++) {
+        lights[3 + i] = lights[i % 2 ? 1 : 2];
+        lights[3 + i].name = names[i];
+        lights[3 + i].range_m = i < 2 ? 0.0f : i % 2 ? 5.5f : 0.8f + 0.1f * (float)i;
+    }
+    for (int i = 5; i < 13; i++) lights[i].outer_rad = 0.25f, lights[i].inner_rad = 0.2f;
+    f->scene->lights = lights;
+    f->scene->light_count = 13;
+}

@@ -20,5 +20,8 @@ void gn_plan_end(struct gn_plan_fixture *f);
 const struct gn_plan *gn_plan_make(struct gn_plan_fixture *f);
 /* Compares with tests/plan/golden/NAME.txt; GN_UPDATE=1 writes that. */
 void gn_plan_expect(const struct gn_plan *plan, const char *name);
+/* Gives it `lights`, its own and ten more spots and bulbs along a row, most of them of short range;
+ * the bulbs cast nothing. */
+void gn_plan_add_lights(struct gn_plan_fixture *f, struct gn_light lights[13]);
 
 #endif

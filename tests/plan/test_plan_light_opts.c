@@ -47,6 +47,28 @@ static void test_options_of_a_light_beat_those_of_all(void **state) {
     gn_plan_end(&f);
 }
 
+static void test_a_light_has_the_colour_that_is_set_or_is_off(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    const struct gn_plan *plan = gn_plan_make(&f);
+    const float exposure = plan->exposure;
+    const uint32_t lights = plan->light_count;
+    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
+        .light = 1, .given = GN_LIGHT_COLOR, .color = {3e4f, 2e4f, 1e4f}};
+    f.opts.shadow.lights[1] = (struct gn_frame_light_opts){.light = 0, .given = GN_LIGHT_OFF};
+    f.opts.shadow.light_count = 2;
+    plan = gn_plan_make(&f);
+    assert_int_equal(plan->light_count, lights - 1);
+    assert_null(view_of(plan, 0)); /* no map either */
+    const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
+    const float *c = ((const float(*)[4])last->constants)[PASS_LIGHTS + LIGHT_COLOR];
+    for (int k = 0; k < 3; k++)
+        assert_true(fabsf(c[k] - (float)(3 - k) * 1e4f * exposure / GLM_PIf) < .1f);
+    assert_true(plan->exposure == exposure); /* chosen by the lights as the scene has them */
+    gn_plan_end(&f);
+}
+
 /* Of the passes of that light's map; -1: not all alike. */
 static int cull_of(const struct gn_plan *plan, uint32_t light) {
     int cull = -2;
@@ -285,6 +307,7 @@ static void test_maps_are_cleared_to_the_far_end_but_in_a_lesson(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
+        cmocka_unit_test(test_a_light_has_the_colour_that_is_set_or_is_off),
         cmocka_unit_test(test_a_light_can_be_looked_from),
         cmocka_unit_test(test_faces_of_all_casters_are_as_set),
         cmocka_unit_test(test_the_bias_is_as_set),

@@ -69,6 +69,8 @@ static inline void begin_plan(enum gn_output_format output) {
     s.plan = (struct gn_plan){.width_px = SIDE,
                               .height_px = SIDE,
                               .output = output,
+                              .finished = output,
+                              .tone = GN_TONE_NONE,
                               .scene = &help_scene,
                               .passes = s.passes,
                               .draws = s.draws,

@@ -110,16 +110,16 @@ static struct gn_geometry geometries[] = {
     [HELP_NEAR] = {.first_vertex = 0, .vertex_count = 4, .first_index = 0, .index_count = 6},
     [HELP_FAR] = {.first_vertex = 4, .vertex_count = 4, .first_index = 6, .index_count = 6},
 };
-#define NO_TEXTURE                                                                                 \
-    {                                                                                              \
-        .texture = -1, .uv_from_uv = { 1, 0, 0, 1, 0, 0 }                                          \
-    }
+#define UNTRANSFORMED   .uv_from_uv = {1, 0, 0, 1, 0, 0}
+#define GN_X(NAME, ...) [GN_TEXTURE_##NAME] = {.texture = -1, UNTRANSFORMED},
+#define GN_Y(NAME, ...)                                                                            \
+    [GN_TEXTURE_##NAME] = {.texture = GN_TEXTURE_##NAME == 0 ? 0 : -1, UNTRANSFORMED},
 static struct gn_material materials[] = {
-    {.name = "plain", .textures = {NO_TEXTURE, NO_TEXTURE, NO_TEXTURE, NO_TEXTURE}},
-    {.name = "textured",
-     .textures =
-         {{.texture = 0, .uv_from_uv = {1, 0, 0, 1, 0, 0}}, NO_TEXTURE, NO_TEXTURE, NO_TEXTURE}},
+    {.name = "plain", .textures = {GN_TEXTURE_SLOTS(GN_X)}},
+    {.name = "textured", .textures = {GN_TEXTURE_SLOTS(GN_Y)}},
 };
+#undef GN_X
+#undef GN_Y
 static const uint8_t pixels[] = {255, 0, 0,   255, 0,   255, 0,   255,
                                  0,   0, 255, 255, 255, 255, 255, 255};
 static struct gn_image images[] = {{.width_px = 2, .height_px = 2, .rgba = pixels}};

@@ -19,6 +19,7 @@ static int setup(void **state) {
     caps = (struct gn_caps){.renderer = "V3D 4.2", .version = "OpenGL ES 3.1 Mesa 22.3.6"};
     info = (struct gn_info){.scene = "sundial.glb",
                             .mode = "Soft",
+                            .missing = "skins, sheen",
                             .screen = &screen,
                             .caps = &caps,
                             .root = "/nowhere"};
@@ -38,6 +39,7 @@ static void test_a_page_says_what_is_known(void **state) {
     assert_true(gn_info_page_step(&page, &info, 5));
     assert_true(says("Mode: Soft"));
     assert_true(says("Scene: sundial.glb"));
+    assert_true(says("Shown without: skins, sheen"));
     assert_true(says("Screen: HDMI-A-1 1920x1080@60.00 atomic"));
     assert_true(says("GPU: V3D 4.2"));
     assert_true(says("Driver: OpenGL ES 3.1 Mesa 22.3.6"));

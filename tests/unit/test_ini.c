@@ -283,7 +283,21 @@ static void what_a_file_may_not_say(void **state) {
     assert_file_refused("[mode \"a\"]\nconnector = x\n", "bad.ini:2: unknown key \"connector\"");
     assert_file_refused("[mode \"a\"]\n[mode \"b\"]\n[mode \"a\"]\n",
                         "bad.ini:3: mode \"a\" is there already, in line 1");
-    assert_file_refused("[light]\n", "bad.ini:1: a light has a name: [light \"NAME\"]");
+    assert_file_refused("[light]\nshadow = pcf\n", "bad.ini:2: unknown key \"shadow\"");
+    assert_file_refused("[light]\non = no\n", "bad.ini:2: unknown key \"on\"");
+    assert_file_refused("[light]\ncolor = red\n",
+                        "bad.ini:2: color: \"red\" is not #rrggbb or one of auto");
+    assert_file_refused("[light]\ncolor = #12345g\n", "bad.ini:2: color: \"#12345g\" is not");
+    assert_file_refused("[camera]\ntarget = 1,2\n",
+                        "bad.ini:2: target: \"1,2\" is not auto or three numbers X,Y,Z");
+    assert_file_refused("[camera]\ntarget = 1,2,3,4\n", "bad.ini:2: target: \"1,2,3,4\" is not");
+    assert_file_refused("[mode \"a\"]\ntheta = 1\n", "bad.ini:2: unknown key \"theta\"");
+    assert_file_refused("[light]\nelevation = 91\n",
+                        "bad.ini:2: elevation: \"91\" is not auto or a number from -90 to 90");
+    assert_file_refused("[light \"a\"]\nazimuth = 0\n", "bad.ini:2: unknown key \"azimuth\"");
+    assert_file_refused("[mode \"a\"]\nazimuth = 0\n", "bad.ini:2: unknown key \"azimuth\"");
+    assert_file_refused("[mode \"a\"]\nlight_azimut = 0\n",
+                        "bad.ini:2: unknown key \"light_azimut\"");
     assert_file_refused("[light \"a\"]\n[light \"a\"]\n",
                         "bad.ini:2: light \"a\" is there already, in line 1");
     assert_file_refused("[light \"a\"]\nmap = 64\nmap = 64\n",

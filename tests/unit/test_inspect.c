@@ -231,14 +231,11 @@ static json_t *report(void) {
 
 static void test_json_has_its_fields(void **state) {
     (void)state;
-    static const char *const fields[] = {"file",      "name",
-                                         "size_m",    "counts",
-                                         "materials", "images",
-                                         "lights",    "cameras",
-                                         "clips",     "hemisphere",
-                                         "cost",      "limits",
-                                         "warnings",  "warnings_dropped",
-                                         "advice",    "advice_dropped"};
+    static const char *const fields[] = {
+        "file",   "name",          "size_m",  "counts",   "materials",
+        "images", "lights",        "cameras", "clips",    "hemisphere",
+        "cost",   "limits",        "missing", "warnings", "warnings_dropped",
+        "advice", "advice_dropped"};
     set_lights(1, "{'type':'spot','intensity':50}", 2);
     inspect();
     json_t *all = report();

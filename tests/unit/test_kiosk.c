@@ -45,6 +45,19 @@ static void the_old_mode_is_shown_until_the_new_one_is_ready(void **state) {
     assert_false(gn_kiosk_waits(&s));
 }
 
+static void a_lesson_names_its_first_step(void **state) {
+    (void)state;
+    struct gn_kiosk_rules r = three;
+    struct gn_kiosk s = on(&r, (struct gn_kiosk){0}, GN_KIOSK_FRAME, S);
+    assert_int_equal(gn_kiosk_view(&r, &s, S).caption, GN_KIOSK_CAPTION_NONE);
+    r.names_first = true;
+    s = on(&r, (struct gn_kiosk){0}, GN_KIOSK_FRAME, S);
+    assert_int_equal(gn_kiosk_view(&r, &s, S).caption, GN_KIOSK_CAPTION_MODE);
+    assert_int_equal(gn_kiosk_view(&r, &s, S).caption_mode, 0);
+    s = on(&r, on(&r, s, GN_KIOSK_FRAME, 2 * S), GN_KIOSK_TICK, 3 * S);
+    assert_int_equal(gn_kiosk_view(&r, &s, 3 * S).caption, GN_KIOSK_CAPTION_NONE);
+}
+
 static void presses_while_something_loads_add_up(void **state) {
     (void)state;
     struct gn_kiosk s = {0};
@@ -288,6 +301,7 @@ static void the_default_buttons_do_what_the_design_says(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_old_mode_is_shown_until_the_new_one_is_ready),
+        cmocka_unit_test(a_lesson_names_its_first_step),
         cmocka_unit_test(presses_while_something_loads_add_up),
         cmocka_unit_test(blank_swallows_the_first_action),
         cmocka_unit_test(a_pause_stands_and_goes_on_from_there),

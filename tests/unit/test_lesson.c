@@ -26,6 +26,7 @@ static void every_lesson_has_a_mode_for_each_step(void **state) {
         const struct gn_lesson *lesson = &gn_lessons[i];
         if (!parse((char *)lesson->name)) fail_msg("%s: %s", lesson->name, err.text);
         assert_int_equal(options.mode_count, gn_lesson_steps(lesson));
+        assert_true(options.is_lesson);
         for (int k = 0; k < options.mode_count; k++)
             assert_string_equal(options.modes[k].name, lesson->steps[k].name);
         assert_string_equal(options.settings->scene.path + strlen(GN_SCENE_LESSON), lesson->scene);

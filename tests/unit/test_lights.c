@@ -1,10 +1,12 @@
 /* [light "NAME"] of a configuration, and what belongs to lights, applied to a scene. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "core/file.h"
 #include "options/args.h"
+#include "stage/lights.h"
 #include "stage/stage.h"
 #include "unit/gltf_maker.h"
 #include "unit/options_help.h"
@@ -135,6 +137,108 @@ static void the_radius_of_all_is_that_of_the_made_light(void **state) {
     assert_true(of_light(0)->radius == 0.2f);
 }
 
+static void assert_color(uint32_t light, float r, float g, float b) {
+    const float expected[] = {r, g, b};
+    assert_true(of_light(light)->given & GN_LIGHT_COLOR);
+    for (int k = 0; k < 3; k++)
+        if (!(fabsf(of_light(light)->color[k] - expected[k]) < 1e-4f))
+            fail_msg("%g is not %g", (double)of_light(light)->color[k], (double)expected[k]);
+}
+
+static void a_light_has_a_colour_an_intensity_and_a_switch(void **state) {
+    (void)state;
+    make_scene(true);
+    assert_true(build_look("[light \"Sun\"]\nintensity = 5\ncolor = #ff8000\n"
+                           "[light \"Lamp\"]\non = no\n[light \"Bulb\"]\non = yes\n",
+                           NULL, NULL));
+    const float green = powf((128 / 255.0f + .055f) / 1.055f, 2.4f);
+    assert_color(0, 5, 5 * green, 0);
+    assert_int_equal(of_light(1)->given, GN_LIGHT_OFF);
+    assert_int_equal(of_light(2)->given, 0);
+    /* the order does not count, nor how bright the colour is; 1 is the file's intensity */
+    assert_true(build_look("[light \"Sun\"]\ncolor = #404040\nintensity = 5\n"
+                           "[light \"Lamp\"]\ncolor = #0000ff\n[light \"Bulb\"]\n"
+                           "color = #ff0000\nintensity = 0\n",
+                           NULL, NULL));
+    assert_color(0, 5, 5, 5);
+    assert_color(1, 0, 0, 1);
+    assert_color(2, 0, 0, 0);
+}
+
+static void the_made_light_is_as_its_section_says(void **state) {
+    (void)state;
+    make_scene(false);
+    assert_true(build_look("[light]\nlux = 5.6\nradius = 0.1\n", NULL, NULL));
+    assert_color(0, 5.6f, 5.6f * .95f, 5.6f * .87f);
+    assert_true(of_light(0)->radius == .1f);
+    assert_true(build_look("[render]\nlight_lux = 5\n", "--light-color", "#ffffff"));
+    assert_color(0, 5, 5, 5);
+    assert_true(build_look("[light]\nlux = 5\n[light \"key light\"]\nintensity = 7\n"
+                           "color = #ffffff\n",
+                           NULL, NULL));
+    assert_color(0, 7, 7, 7); /* that of the name beats the other; a flag beats both */
+    assert_true(build_look("[light \"key light\"]\nintensity = 7\n", "--light-lux", "1"));
+    assert_color(0, 1, .95f, .87f);
+    gn_scene_destroy(scene);
+    make_scene(true); /* which has lights: nothing of it is theirs */
+    assert_true(build_look("[light]\nlux = 5\ncolor = #ff0000\nazimuth = 90\n", NULL, NULL));
+    assert_int_equal(look.frame_opts.shadow.light_count, 0);
+}
+
+/* x, y, z: where it comes from. */
+static void assert_from(const struct gn_frame_view_opts *view, float x, float y, float z) {
+    const float expected[] = {x, y, z};
+    struct gn_pose pose;
+    vec3 place, along, up = {0, 1, 0}, seen;
+    mat4 light_from_world;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    const struct gn_frame_opts frame_opts = {.view = *view};
+    gn_stage_aim(&pose, &frame_opts, options.settings);
+    gn_pose_choose(&pose, GN_POSE_NONE); /* which keeps it */
+    gn_pose_light(&pose, scene->light_count - 1, place, along);
+    for (int k = 0; k < 3; k++)
+        if (!(fabsf(along[k] + expected[k]) < 1e-4f))
+            fail_msg("%d: %g is not %g", k, (double)-along[k], (double)expected[k]);
+    gn_pose_light_view(&pose, scene->light_count - 1, light_from_world);
+    glm_mat4_mulv3(light_from_world, up, 0, seen);
+    assert_true(fabsf(seen[0]) < 1e-4f && seen[1] > -1e-4f); /* not rolled */
+    gn_pose_finish(&pose);
+}
+
+static void the_made_light_comes_from_where_it_is_set(void **state) {
+    (void)state;
+    struct gn_frame_view_opts view = {0};
+    const float s = sqrtf(.5f), l = sqrtf(.04f + 1 + .36f);
+    make_scene(false);
+    assert_true(build_look("", NULL, NULL));
+    assert_from(&view, .2f / l, 1 / l, .6f / l);
+    assert_true(build_look("[light]\nazimuth = 0\n", "--light-elevation", "0"));
+    assert_from(&view, 0, 0, 1); /* the front of glTF */
+    assert_true(build_look("[light]\nazimuth = 90\n", "--light-elevation", "0"));
+    assert_from(&view, 1, 0, 0);
+    assert_true(build_look("[light]\nazimuth = -90\n", "--light-elevation", "45"));
+    assert_from(&view, -s, s, 0);
+    assert_true(build_look("[light]\nazimuth = 20\n", "--light-elevation", "90"));
+    assert_from(&view, 0, 1, 0);
+    assert_true(build_look("[light]\nazimuth = 0\n", NULL, NULL)); /* keeps its height */
+    assert_from(&view, 0, 1 / l, hypotf(.2f, .6f) / l);
+    view.turntable_rad = 1;
+    assert_from(&view, 0, 1 / l, hypotf(.2f, .6f) / l); /* stands in the world */
+    /* with the camera: at first as it stands in the world, then on the same side of the picture */
+    view.turntable_rad = 0;
+    assert_true(build_look("", "--light-follow", "camera"));
+    assert_from(&view, .2f / l, 1 / l, .6f / l);
+    view.turntable_rad = GLM_PI_2f;
+    assert_from(&view, .6f / l, 1 / l, -.2f / l);
+    view.orbit.yaw_rad = -GLM_PI_2f;
+    assert_from(&view, .2f / l, 1 / l, .6f / l);
+    assert_true(build_look("[light]\nazimuth = 0\nelevation = 0\n", "--light-follow", "camera"));
+    const float c = hypotf(.55f, 1);
+    assert_from(&view, .55f / c, 0, 1 / c); /* from the camera */
+    view.turntable_rad = 0;
+    assert_from(&view, -1 / c, 0, .55f / c);
+}
+
 static void a_camera_may_be_a_spot_or_a_directional_light(void **state) {
     (void)state;
     make_scene(true);
@@ -150,6 +254,25 @@ static void a_camera_may_be_a_spot_or_a_directional_light(void **state) {
     assert_false(build_look("", "--camera", "lamp"));
     assert_non_null(strstr(err.text, "no camera named 'lamp'"));
     assert_int_equal(look.frame_opts.view.light_plus_1, 0);
+}
+
+static void the_camera_is_placed_as_its_section_says(void **state) {
+    (void)state;
+    make_scene(false);
+    assert_true(build_look("", NULL, NULL));
+    assert_int_equal(look.frame_opts.view.framing.given, 0);
+    assert_true(build_look("[camera]\ntheta = 90\ntarget = 1,-2.5,3e1\n[render]\n"
+                           "camera_phi_max = 90\n",
+                           "--camera-fov", "60"));
+    const struct gn_framing_opts *f = &look.frame_opts.view.framing;
+    assert_int_equal(f->given, GN_FRAMING_THETA | GN_FRAMING_TARGET | GN_FRAMING_FOV);
+    assert_true(fabsf(f->theta_rad - GLM_PI_2f) < 1e-6f &&
+                fabsf(f->yfov_rad - GLM_PIf / 3) < 1e-6f);
+    assert_true(f->target_ws[0] == 1 && f->target_ws[1] == -2.5f && f->target_ws[2] == 30);
+    assert_true(fabsf(f->phi_max_rad - GLM_PI_2f) < 1e-6f && f->distance_max_m == 0);
+    assert_true(
+        build_look("[camera]\ntheta = 90\n[mode \"a\"]\ncamera_theta = auto\n", "--mode", "a"));
+    assert_int_equal(look.frame_opts.view.framing.given, 0);
 }
 
 static int make_path(void **state) {
@@ -176,6 +299,10 @@ int main(void) {
         cmocka_unit_test_teardown(a_flag_beats_it, finish),
         cmocka_unit_test_teardown(a_name_that_no_light_has_is_one_warning, finish),
         cmocka_unit_test_teardown(the_radius_of_all_is_that_of_the_made_light, finish),
+        cmocka_unit_test_teardown(a_light_has_a_colour_an_intensity_and_a_switch, finish),
+        cmocka_unit_test_teardown(the_made_light_is_as_its_section_says, finish),
+        cmocka_unit_test_teardown(the_made_light_comes_from_where_it_is_set, finish),
+        cmocka_unit_test_teardown(the_camera_is_placed_as_its_section_says, finish),
         cmocka_unit_test_teardown(a_camera_may_be_a_spot_or_a_directional_light, finish),
     };
     return cmocka_run_group_tests_name("lights", tests, make_path, remove_path);

@@ -126,7 +126,12 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("render --exposure inf", "auto or a number");
     assert_wrong("render --time -1", "--time");
     assert_wrong("render --aov colour", "one of color, visibility, distance, normal, map");
-    assert_wrong("render --msaa 3", "one of 0, 2, 4");
+    assert_wrong("render --msaa 3", "one of auto, 0, 2, 4");
+    assert_wrong("render --background #12345", "not #rrggbb or one of auto, transparent, sky");
+    assert_wrong("render --background #1234567", "#rrggbb");
+    assert_wrong("render --background #12345g", "#rrggbb");
+    assert_wrong("render --background 123456", "#rrggbb");
+    assert_wrong("render --tone filmic", "one of auto, neutral, aces, agx, none");
     assert_wrong("render --backend EGL", "one of auto, egl, osmesa, kms, window");
     assert_wrong("render --shadow=", "--shadow");
     assert_wrong("render --shadow nosuch", "--shadow: \"nosuch\" is not one of none, hard, pcf,");
@@ -247,7 +252,7 @@ static void rows_are_complete_and_different(void **state) {
         const struct gn_option_row *a = &gn_option_rows[i];
         assert_non_null(a->name);
         assert_non_null(a->help);
-        assert_true(a->commands || a->section);
+        assert_true(a->commands || a->section || a->of_light);
         const bool of_show = !a->commands || a->commands & 1u << GN_COMMAND_SHOW;
         assert_int_equal(a->change != GN_CHANGE_NEVER, a->section && of_show);
         assert_true(!a->reopens || a->change == GN_CHANGE_RELOAD);

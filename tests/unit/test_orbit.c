@@ -12,6 +12,7 @@
 
 enum { NEAR_CAMERA, FLAT_CAMERA, TOP_CAMERA };
 static const float YFOV = 1.0f;
+static const struct gn_framing_opts SHAPE = {.aspect = 1.5f};
 
 static struct gn_scene *scene;
 static struct gn_pose pose;
@@ -55,32 +56,33 @@ static void assert_near(float a, float b, float tolerance) {
 
 /* Where the eye is, and where it sees the origin. */
 static void assert_eye(const struct gn_orbit *o, uint32_t camera, float x, float y, float z) {
-    mat4 view;
-    vec3 eye, origin = {0, 0, 0}, seen;
-    gn_orbit_view(o, &pose, camera, view, eye);
+    struct gn_framing at;
+    vec3 origin = {0, 0, 0}, seen;
+    gn_orbit_view(o, &pose, camera, &SHAPE, &at);
     const float expected[3] = {x, y, z};
-    for (int k = 0; k < 3; k++) assert_near(eye[k], expected[k], 1e-4f);
-    glm_mat4_mulv3(view, origin, 1, seen);
+    for (int k = 0; k < 3; k++) assert_near(at.eye_ws[k], expected[k], 1e-4f);
+    glm_mat4_mulv3(at.view_from_world, origin, 1, seen);
     assert_near(seen[0], 0, 1e-4f);
     assert_near(seen[1], 0, 1e-4f);
     assert_near(seen[2], -sqrtf(x * x + y * y + z * z), 1e-4f);
 }
 
 static struct gn_orbit step(struct gn_orbit o, struct gn_orbit_hand hand, uint32_t camera) {
-    return gn_orbit_step(&o, &hand, &pose, camera);
+    return gn_orbit_step(&o, &hand, &pose, camera, &SHAPE);
 }
 
 static void test_no_orbit_is_the_camera_itself(void **state) {
     (void)state;
     const struct gn_orbit none = {0};
-    mat4 view, same;
-    vec3 eye, there;
+    mat4 view;
+    vec3 eye;
+    struct gn_framing same;
     assert_true(gn_orbit_is_zero(&none));
     gn_pose_view(&pose, NEAR_CAMERA, view, eye);
-    gn_orbit_view(&none, &pose, NEAR_CAMERA, same, there);
-    assert_memory_equal(view, same, sizeof view);
-    assert_memory_equal(eye, there, sizeof eye);
-    const struct gn_orbit still = step(none, (struct gn_orbit_hand){.aspect = 2}, NEAR_CAMERA);
+    gn_orbit_view(&none, &pose, NEAR_CAMERA, &SHAPE, &same);
+    assert_memory_equal(view, same.view_from_world, sizeof view);
+    assert_memory_equal(eye, same.eye_ws, sizeof eye);
+    const struct gn_orbit still = step(none, (struct gn_orbit_hand){0}, NEAR_CAMERA);
     assert_true(gn_orbit_is_zero(&still));
 }
 
@@ -108,11 +110,11 @@ static void test_a_pan_is_as_long_as_the_hand_moves(void **state) {
     (void)state;
     for (uint32_t camera = NEAR_CAMERA; camera <= FLAT_CAMERA; camera++) {
         struct gn_orbit o = {.yaw_rad = .7f, .pitch_rad = .3f, .zoom = .4f};
-        mat4 view;
-        vec3 eye, origin = {0, 0, 0}, seen;
-        o = step(o, (struct gn_orbit_hand){.pan = {.25f, .125f}, .aspect = 1.5f}, camera);
-        gn_orbit_view(&o, &pose, camera, view, eye);
-        glm_mat4_mulv3(view, origin, 1, seen);
+        struct gn_framing at;
+        vec3 origin = {0, 0, 0}, seen;
+        o = step(o, (struct gn_orbit_hand){.pan = {.25f, .125f}}, camera);
+        gn_orbit_view(&o, &pose, camera, &SHAPE, &at);
+        glm_mat4_mulv3(at.view_from_world, origin, 1, seen);
         const float d = 10 * expf(-.4f);
         const float height = camera == FLAT_CAMERA ? 4 * expf(-.4f) : 2 * d * tanf(YFOV / 2);
         assert_near(seen[0], .25f * height, 1e-4f);
@@ -124,16 +126,15 @@ static void test_a_pan_is_as_long_as_the_hand_moves(void **state) {
 static void test_the_eye_stays_below_the_pole(void **state) {
     (void)state;
     struct gn_orbit o = {0};
-    mat4 view;
-    vec3 eye;
+    struct gn_framing at;
     for (int i = 0; i < 100; i++)
         o = step(o, (struct gn_orbit_hand){.turn = {.01f, -.1f}}, NEAR_CAMERA);
-    gn_orbit_view(&o, &pose, NEAR_CAMERA, view, eye);
-    assert_true(eye[1] > 9.99f && eye[1] < 10);
-    assert_true(view[1][1] > 0);                                         /* its up is up */
+    gn_orbit_view(&o, &pose, NEAR_CAMERA, &SHAPE, &at);
+    assert_true(at.eye_ws[1] > 9.99f && at.eye_ws[1] < 10);
+    assert_true(at.view_from_world[1][1] > 0);                           /* its up is up */
     o = step(o, (struct gn_orbit_hand){.turn = {0, .25f}}, NEAR_CAMERA); /* no way back wasted */
-    gn_orbit_view(&o, &pose, NEAR_CAMERA, view, eye);
-    assert_near(eye[1], 10 * sinf(1.56f - GLM_PI_4f), 1e-3f);
+    gn_orbit_view(&o, &pose, NEAR_CAMERA, &SHAPE, &at);
+    assert_near(at.eye_ws[1], 10 * sinf(1.56f - GLM_PI_4f), 1e-3f);
     o = step((struct gn_orbit){0}, (struct gn_orbit_hand){.turn = {0, -.1f}}, TOP_CAMERA);
     assert_near(o.pitch_rad, 0, 1e-6f); /* which is on it, and stays as it stands */
 }
@@ -154,15 +155,32 @@ static void test_zoom_has_its_ends(void **state) {
     assert_near(half[0], 2 * half[1], 1e-6f);
 }
 
+static void test_the_hand_stays_within_limits(void **state) {
+    (void)state;
+    const struct gn_framing_opts limits = {.aspect = 1.5f,
+                                           .phi_min_rad = GLM_PI_4f,
+                                           .phi_max_rad = GLM_PI_2f,
+                                           .distance_min_m = 5,
+                                           .distance_max_m = 20};
+    struct gn_orbit o = {0};
+    struct gn_framing at;
+    for (int end = -1; end <= 1; end += 2) {
+        const struct gn_orbit_hand hand = {.turn = {0, -(float)end}, .zoom = (float)end * 100};
+        o = gn_orbit_step(&o, &hand, &pose, NEAR_CAMERA, &limits);
+        gn_orbit_view(&o, &pose, NEAR_CAMERA, &limits, &at);
+        assert_near(at.eye_ws[1], end < 0 ? 0 : 5 * sqrtf(.5f), 1e-3f);
+        assert_near(at.eye_ws[2], end < 0 ? 20 : 5 * sqrtf(.5f), 1e-3f);
+    }
+}
+
 static void test_a_hand_gone_wild_leaves_numbers(void **state) {
     (void)state;
     struct gn_orbit o = {0};
-    const struct gn_orbit_hand wild = {{1e30f, -1e30f}, {1e30f, 1e30f}, -1e30f, 1e-3f};
-    mat4 view;
-    vec3 eye;
+    const struct gn_orbit_hand wild = {{1e30f, -1e30f}, {1e30f, 1e30f}, -1e30f};
+    struct gn_framing at;
     for (int i = 0; i < 3; i++) o = step(o, wild, NEAR_CAMERA);
-    gn_orbit_view(&o, &pose, NEAR_CAMERA, view, eye);
-    for (int k = 0; k < 3; k++) assert_true(fabsf(eye[k]) < 1e6f);
+    gn_orbit_view(&o, &pose, NEAR_CAMERA, &SHAPE, &at);
+    for (int k = 0; k < 3; k++) assert_true(fabsf(at.eye_ws[k]) < 1e6f);
 }
 
 /* From where the camera's own planes would cut the cube off. */
@@ -193,6 +211,7 @@ int main(void) {
         cmocka_unit_test(test_a_pan_is_as_long_as_the_hand_moves),
         cmocka_unit_test(test_the_eye_stays_below_the_pole),
         cmocka_unit_test(test_zoom_has_its_ends),
+        cmocka_unit_test(test_the_hand_stays_within_limits),
         cmocka_unit_test(test_a_hand_gone_wild_leaves_numbers),
         cmocka_unit_test(test_all_of_the_scene_is_seen_from_everywhere),
     };

@@ -204,6 +204,54 @@ static void test_planes_named_apart_are_several(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* Walls behind and to the left of a floor, one that is too small, and a part of the floor apart; a
+ * thing, or none. The sun shines along -Z, as `sun` turns it. */
+static void expect_room(const char *thing, const char *sun, const char *expected) {
+    char nodes[1500], found[10] = "00000";
+    setup(NULL);
+    gn_maker_cube(&maker);
+    snprintf(nodes, sizeof nodes,
+             "[{'mesh':0,'name':'0','scale':[5,1,5]},"
+             "{'mesh':0,'name':'1','translation':[0,2,-4],'scale':[5,1,2],"
+             "'rotation':[0.7071068,0,0,0.7071068]},"
+             "{'mesh':0,'name':'2','translation':[-4,2,0],'scale':[2,1,5],"
+             "'rotation':[0,0,-0.7071068,0.7071068]},"
+             "{'mesh':0,'name':'3','translation':[0,1,3],'scale':[1,1,1],"
+             "'rotation':[0.7071068,0,0,0.7071068]},"
+             "{'mesh':0,'name':'4','translation':[0,0,9],'scale':[4.5,1,4]},"
+             "{'rotation':[%s],'extensions':{'KHR_lights_punctual':{'light':0}}}%s]",
+             sun, thing);
+    gn_maker_set(&maker, "nodes", nodes);
+    gn_maker_set(&maker, "scenes",
+                 thing[0] ? "[{'nodes':[0,1,2,3,4,5,6]}]" : "[{'nodes':[0,1,2,3,4,5]}]");
+    gn_maker_set(&maker, "extensions",
+                 "{'KHR_lights_punctual':{'lights':[{'type':'directional'}]}}");
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
+    struct gn_scene *scene = load();
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        const char *name = scene->nodes[scene->items[i].node].name;
+        if (name[0]) found[name[0] - '0'] = (char)('0' + scene->items[i].plane);
+    }
+    assert_string_equal(found, expected);
+    assert_false(scene->planes_named);
+    gn_scene_destroy(scene);
+}
+
+static void test_planes_are_found_where_shadows_fall(void **state) {
+    (void)state;
+    static const char thing[] = ",{'mesh':1,'translation':[-2.5,1,-2.5],'scale':[0.5,1,0.5]}";
+    static const char far_off[] = ",{'mesh':1,'translation':[3,1,4],'scale':[0.5,1,0.5]}";
+    static const char aslant[] = "-0.4082123,0.2886933,0.0000000,0.8660363";
+    static const char right[] = "-0.4082123,-0.2886933,-0.0000000,0.8660363";
+    static const char down[] = "-0.7071068,0,0,0.7071068";
+    gn_maker_finish(&maker);
+    expect_room(thing, aslant, "12300");
+    expect_room(thing, right, "12000"); /* the left wall is not lit */
+    expect_room(thing, down, "10000");
+    expect_room(far_off, aslant, "10000"); /* its shadow ends on the floor */
+    expect_room("", aslant, "10000");
+}
+
 /* ---- cameras, and what is made ---- */
 
 static void test_cameras(void **state) {
@@ -231,7 +279,8 @@ static void test_cameras(void **state) {
     gn_scene_destroy(scene);
 }
 
-/* All corners of the box are in the picture, between near and far. */
+/* All corners of the box are in a picture of 16:9, for which the node stands, between near and far.
+ */
 static void assert_framed(const struct gn_scene *scene) {
     struct gn_pose pose;
     mat4 view;
@@ -245,7 +294,7 @@ static void assert_framed(const struct gn_scene *scene) {
         glm_mat4_mulv(view, p, p);
         assert_true(-p[2] > camera->near_m && -p[2] < camera->far_m);
         assert_true(fabsf(p[1] / p[2]) < tanf(camera->yfov_rad / 2));
-        assert_true(fabsf(p[0] / p[2]) < tanf(camera->yfov_rad / 2) * 4 / 3);
+        assert_true(fabsf(p[0] / p[2]) < tanf(camera->yfov_rad / 2) * 16 / 9);
     }
     gn_pose_finish(&pose);
 }
@@ -284,6 +333,7 @@ int main(void) {
         cmocka_unit_test_setup(test_scene_extras, setup),
         cmocka_unit_test_setup(test_node_extras, setup),
         cmocka_unit_test_setup(test_plane, setup),
+        cmocka_unit_test_setup(test_planes_are_found_where_shadows_fall, setup),
         cmocka_unit_test_setup(test_planes_named_apart_are_several, setup),
         cmocka_unit_test_setup(test_cameras, setup),
         cmocka_unit_test_setup(test_made_camera_and_light, setup),

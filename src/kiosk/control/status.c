@@ -108,6 +108,8 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
                                   gn_json_make_text(o->config_error)));
     json_object_set_new(reply, "problem",
                         gn_json_make_text(s->text.problem[0] ? s->text.problem : NULL));
+    json_object_set_new(reply, "missing",
+                        gn_json_make_text(s->stage.scene ? s->stage.scene->missing : NULL));
     json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
     json_object_set_new(reply, "control",
                         json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted",

@@ -26,6 +26,8 @@ static void add_camera(struct gn_gltf *g, const struct gn_at *at, uint32_t node)
         camera.yfov_rad = needed_float(g, &perspective, "yfov");
         camera.near_m = needed_float(g, &perspective, "znear");
         camera.far_m = gn_at_float(g, &perspective, "zfar", 0);
+        camera.aspect = gn_at_float(g, &perspective, "aspectRatio", 0);
+        if (!(camera.aspect >= 1e-3f && camera.aspect <= 1e3f)) camera.aspect = 0; /* none */
         in_range = camera.yfov_rad > 1e-3f && camera.yfov_rad < GLM_PIf - 1e-3f &&
                    camera.near_m > 0 && camera.near_m < NEAR_MOST_M;
     } else {

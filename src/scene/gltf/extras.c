@@ -119,6 +119,7 @@ void gn_extras_node(struct gn_gltf *g, const struct gn_at *node, struct gn_place
     struct gn_at extras = extras_of(node);
     if (!json_is_object(extras.json)) return;
     take_flag(g, &extras, "gnomon_cast", &placed->casts);
+    take_flag(g, &extras, "gnomon_cast_alpha", &placed->casts_alpha);
     take_flag(g, &extras, "gnomon_receive", &placed->receives);
     bool plane = false;
     if (take_flag(g, &extras, "gnomon_plane", &plane)) placed->plane = plane ? GN_YES : GN_NO;
@@ -160,6 +161,27 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
     take_float(g, &extras, "gnomon_slide_far_m", 1e6f, &light->slide_far_m);
     int word = take_word(g, &extras, "gnomon_slide_outside", outside, 2);
     if (word >= 0) light->slide_lit_outside = word == 1;
+}
+
+void gn_extras_material(struct gn_gltf *g, const struct gn_at *material, int lightmap_set,
+                        struct gn_material *m) {
+    struct gn_at extras = extras_of(material);
+    struct gn_texture_ref *ref = &m->textures[GN_TEXTURE_LIGHTMAP];
+    int64_t texture = -1;
+    if (!json_is_object(extras.json)) return;
+    const bool has_map = gn_at_any(&extras, "gnomon_lightmap").json != NULL;
+    if (g->file.texture_count > 0)
+        take_whole(g, &extras, "gnomon_lightmap", 0, (int64_t)g->file.texture_count - 1, &texture);
+    else if (has_map)
+        gn_gltf_warn(g, &extras, "gnomon_lightmap: the file has no textures; ignored");
+    take_float(g, &extras, "gnomon_lightmap_intensity", 1e9f, &m->lightmap_intensity);
+    if (texture < 0 || ref->texture >= 0) return;
+    if (lightmap_set < 0)
+        gn_gltf_warn(g, &extras,
+                     "gnomon_lightmap: the material reads two other sets of coordinates; ignored");
+    else
+        ref->texture = gn_gltf_texture(g, (int32_t)texture);
+    ref->uv_set = lightmap_set > 0 ? (uint8_t)lightmap_set : 0;
 }
 
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene) {

@@ -97,8 +97,11 @@ bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
 /* ---- versions and extensions ---- */
 
 static const char *const SUPPORTED[] = {
-    "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_unlit",
-    "KHR_mesh_quantization", "KHR_texture_transform",           "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",    "KHR_mesh_quantization",
+    "KHR_texture_transform",  "EXT_mesh_gpu_instancing",
+    "MOZ_lightmap",           "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_pbrSpecularGlossiness",
 };
 
 static const struct cure {
@@ -110,7 +113,6 @@ static const struct cure {
     {"KHR_texture_basisu", "export it with PNG or JPEG pictures"},
     {"EXT_texture_webp", "export it with PNG or JPEG pictures"},
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
-    {"KHR_materials_pbrSpecularGlossiness", "convert it first (gltf-transform metalrough can)"},
 };
 
 bool gn_gltf_check_support(struct gn_gltf *g) {

@@ -23,6 +23,7 @@ static void add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitiv
             .material = primitive->material < 0 ? fallback : (uint32_t)primitive->material,
             .instance = placed->instance_count > 0 ? (int32_t)(placed->first_instance + k) : -1,
             .casts = placed->casts,
+            .casts_alpha = placed->casts_alpha,
             .receives = placed->receives,
             .cast_faces = placed->cast_faces,
         };
@@ -41,7 +42,8 @@ bool gn_gltf_items(struct gn_gltf *g) {
         return gn_gltf_fail(g, &nodes,
                             "%" PRIu64 " items are more than the limit instances=%" PRIu64, total,
                             g->limits.instances);
-    scene->items = gn_gltf_alloc(g, g->memory.scene, total, sizeof *scene->items);
+    scene->items = gn_gltf_alloc(
+        g, g->memory.scene, total + (g->limits.floor.kind != GN_FLOOR_NONE), sizeof *scene->items);
     if (!scene->items) return false;
     if (total * DRAWN_BYTES > gn_gltf_room(g))
         return gn_gltf_fail(

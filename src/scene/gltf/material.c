@@ -5,44 +5,100 @@
 
 static float clamp(float x, float least, float most) { return fminf(fmaxf(x, least), most); }
 
-static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
-                         struct gn_texture_ref *ref) {
+#define GLOSSINESS "extensions.KHR_materials_pbrSpecularGlossiness"
+
+/* The set and the transform of its coordinates, as an affine map; the rotation is clockwise, since
+ * v points down. */
+static uint64_t read_uv(struct gn_gltf *g, const struct gn_at *at, float *m, bool *transformed) {
     uint64_t uv_set = gn_at_uint(g, at, "texCoord", 0);
-    int32_t texture = gn_at_ref(g, at, "index", g->file.texture_count, "textures");
-    ref->texture = -1;
     struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
-    if (transform.json) { /* as an affine map; the rotation is clockwise, since v points down */
-        float offset[2] = {0, 0}, scale[2] = {1, 1};
-        gn_at_floats(g, &transform, "offset", 2, offset);
-        gn_at_floats(g, &transform, "scale", 2, scale);
-        uv_set = gn_at_uint(g, &transform, "texCoord", uv_set);
-        float angle = gn_at_float(g, &transform, "rotation", 0);
-        float c = cosf(angle), s = sinf(angle), *m = ref->uv_from_uv;
-        m[0] = c * scale[0];
-        m[1] = -s * scale[0];
-        m[2] = s * scale[1];
-        m[3] = c * scale[1];
-        memcpy(m + 4, offset, sizeof offset);
-        for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
+    *transformed = transform.json != NULL;
+    if (!transform.json) return uv_set;
+    float offset[2] = {0, 0}, scale[2] = {1, 1};
+    gn_at_floats(g, &transform, "offset", 2, offset);
+    gn_at_floats(g, &transform, "scale", 2, scale);
+    float angle = gn_at_float(g, &transform, "rotation", 0);
+    float c = cosf(angle), s = sinf(angle);
+    m[0] = c * scale[0];
+    m[1] = -s * scale[0];
+    m[2] = s * scale[1];
+    m[3] = c * scale[1];
+    memcpy(m + 4, offset, sizeof offset);
+    for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
+    return gn_at_uint(g, &transform, "texCoord", uv_set);
+}
+
+/* The texture of a slot in the JSON of a material. */
+static struct gn_at texture_at(struct gn_gltf *g, const struct gn_at *material,
+                               enum gn_texture_slot slot, struct gn_at *parent) {
+    const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
+    if (strncmp(row->key, "extensions.", 11) == 0) return gn_at_extension(g, material, row->key);
+    *parent = *row->parent ? gn_at_object(g, material, row->parent) : *material;
+    return gn_at_object(g, parent, row->key);
+}
+
+static int find_uv_set(const uint64_t sets[GN_UV_SETS], uint64_t set) {
+    for (int i = 0; i < GN_UV_SETS; i++)
+        if (sets[i] == set) return i;
+    return -1;
+}
+
+void gn_gltf_uv_sets(struct gn_gltf *g, int32_t material, uint64_t sets[GN_UV_SETS]) {
+    float m[6];
+    bool transformed, others = false;
+    uint64_t found[GN_UV_SETS] = {0, 1};
+    int count = 0;
+    sets[0] = 0;
+    sets[1] = 1;
+    if (material < 0 || g->failed) return;
+    struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
+    struct gn_at at = gn_at_item(g, &materials, (size_t)material), parent;
+    struct gn_at gloss = gn_at_extension(g, &at, GLOSSINESS);
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT && !g->failed; slot++) {
+        struct gn_at texture = gloss.json && slot == GN_TEXTURE_BASE
+                                   ? gn_at_object(g, &gloss, "diffuseTexture")
+                                   : texture_at(g, &at, slot, &parent);
+        if (!texture.json) continue;
+        const uint64_t set = read_uv(g, &texture, m, &transformed);
+        bool known = false;
+        for (int i = 0; i < count; i++) known |= found[i] == set;
+        others |= set > 1;
+        if (!known && count < GN_UV_SETS) found[count++] = set;
     }
+    if (!others) return; /* as the file numbers them */
+    if (count == 1) found[1] = found[0] == 0;
+    memcpy(sets, found, sizeof found);
+}
+
+static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
+                         const uint64_t sets[GN_UV_SETS], struct gn_texture_ref *ref) {
+    bool transformed = false;
+    int32_t texture = gn_at_ref(g, at, "index", g->file.texture_count, "textures");
+    const uint64_t uv_set = read_uv(g, at, ref->uv_from_uv, &transformed);
+    const int place = find_uv_set(sets, uv_set);
+    ref->texture = -1;
     if (!at->json || g->failed || !used) return;
     if (texture < 0) {
-        struct gn_at place = gn_at_any(at, "index");
-        gn_gltf_fail(g, &place, "missing");
-    } else if (uv_set > 1) {
-        gn_gltf_warn(g, at, "texCoord %llu: only sets 0 and 1 are read; shown without this texture",
-                     (unsigned long long)uv_set);
+        struct gn_at missing = gn_at_any(at, "index");
+        gn_gltf_fail(g, &missing, "missing");
+    } else if (place < 0) {
+        gn_gltf_warn(g, at,
+                     "texCoord %llu: the material reads sets %llu and %llu, and no third; shown "
+                     "without this texture",
+                     (unsigned long long)uv_set, (unsigned long long)sets[0],
+                     (unsigned long long)sets[1]);
     } else {
         ref->texture = gn_gltf_texture(g, texture);
-        ref->uv_set = (uint8_t)uv_set;
+        ref->uv_set = (uint8_t)place;
     }
 }
 
-/* glTF's default material, and the defaults of every other. */
-static void init_material(struct gn_material *m) {
+void gn_material_init(struct gn_material *m) {
     m->name = "";
     glm_vec4_one(m->base_color);
-    m->roughness = m->metalness = m->occlusion_strength = 1;
+    m->roughness = m->metalness = m->occlusion_strength = m->normal_scale = m->lightmap_intensity =
+        1;
+    glm_vec3_copy((vec3){GN_F0, GN_F0, GN_F0}, m->f0);
     m->alpha_cutoff = .5f;
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++) {
         m->textures[i].texture = -1;
@@ -50,11 +106,56 @@ static void init_material(struct gn_material *m) {
     }
 }
 
+/* KHR_materials_ior and KHR_materials_specular: the reflectance of what is no metal. */
+static void read_f0(struct gn_gltf *g, const struct gn_at *at, bool used, struct gn_material *m) {
+    struct gn_at refracts = gn_at_extension(g, at, "extensions.KHR_materials_ior");
+    struct gn_at specular = gn_at_extension(g, at, "extensions.KHR_materials_specular");
+    float f0 = GN_F0, color[3] = {1, 1, 1};
+    if (gn_at_any(&refracts, "ior").json) {
+        const float ior = clamp(gn_at_float(g, &refracts, "ior", 1.5f), 0, 1e4f);
+        const float r = (ior - 1) / (ior + 1);
+        f0 = fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
+    }
+    gn_at_floats(g, &specular, "specularColorFactor", 3, color);
+    const float share = clamp(gn_at_float(g, &specular, "specularFactor", 1), 0, 1);
+    for (int k = 0; k < 3; k++) m->f0[k] = clamp(f0 * clamp(color[k], 0, 1e4f), 0, 1) * share;
+    if (used && (gn_at_any(&specular, "specularTexture").json ||
+                 gn_at_any(&specular, "specularColorTexture").json))
+        g->is_missing[GN_MISSING_SPECULAR_TEXTURES] = true;
+}
+
+/* KHR_materials_pbrSpecularGlossiness: no metal, but any reflectance; what is reflected is not
+ * diffuse. */
+static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used,
+                            const uint64_t sets[GN_UV_SETS], struct gn_material *m) {
+    float specular[3] = {1, 1, 1};
+    glm_vec4_one(m->base_color);
+    gn_at_floats(g, at, "diffuseFactor", 4, m->base_color);
+    gn_at_floats(g, at, "specularFactor", 3, specular);
+    m->roughness = 1 - clamp(gn_at_float(g, at, "glossinessFactor", 1), 0, 1);
+    m->metalness = 0;
+    struct gn_at both = gn_at_object(g, at, "specularGlossinessTexture");
+    struct gn_at base = gn_at_object(g, at, "diffuseTexture");
+    read_texture(g, &base, used, sets, &m->textures[GN_TEXTURE_BASE]);
+    m->textures[GN_TEXTURE_ROUGHNESS].texture = -1;
+    if (both.json) { /* its factors tell nothing without it */
+        if (used) g->is_missing[GN_MISSING_GLOSSINESS_TEXTURES] = true;
+        m->roughness = .6f;
+        return;
+    }
+    float most = 0;
+    for (int k = 0; k < 3; k++) {
+        m->f0[k] = clamp(specular[k], 0, 1);
+        most = fmaxf(most, m->f0[k]);
+    }
+    for (int k = 0; k < 3; k++) m->base_color[k] *= 1 - most;
+}
+
 static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
-                          struct gn_material *m) {
+                          const uint64_t sets[GN_UV_SETS], struct gn_material *m) {
     static const char *const alphas[] = {
         [GN_ALPHA_OPAQUE] = "OPAQUE", [GN_ALPHA_MASK] = "MASK", [GN_ALPHA_BLEND] = "BLEND"};
-    init_material(m);
+    gn_material_init(m);
     m->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
     m->unlit = gn_at_extension(g, at, "extensions.KHR_materials_unlit").json != NULL;
@@ -70,7 +171,6 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
 
     struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
     gn_at_floats(g, &pbr, "baseColorFactor", 4, m->base_color);
-    for (int k = 0; k < 4; k++) m->base_color[k] = clamp(m->base_color[k], 0, k < 3 ? 1e4f : 1);
     m->roughness = clamp(gn_at_float(g, &pbr, "roughnessFactor", 1), 0, 1);
     m->metalness = clamp(gn_at_float(g, &pbr, "metallicFactor", 1), 0, 1);
     struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
@@ -82,13 +182,59 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
     struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
     m->occlusion_strength = clamp(gn_at_float(g, &occlusion, "strength", 1), 0, 1);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-        struct gn_at parent = *row->parent ? gn_at_object(g, at, row->parent) : *at;
-        struct gn_at texture = gn_at_object(g, &parent, row->key);
-        read_texture(g, &texture, used, &m->textures[slot]);
+        struct gn_at parent, texture = texture_at(g, at, slot, &parent);
+        read_texture(g, &texture, used, sets, &m->textures[slot]);
     }
-    if (used && gn_at_object(g, at, "normalTexture").json)
-        g->is_missing[GN_MISSING_NORMAL_MAPS] = true;
+    struct gn_at gloss = gn_at_extension(g, at, GLOSSINESS);
+    if (gloss.json)
+        read_glossiness(g, &gloss, used, sets, m);
+    else
+        read_f0(g, at, used, m);
+    for (int k = 0; k < 4; k++) m->base_color[k] = clamp(m->base_color[k], 0, k < 3 ? 1e4f : 1);
+    if (used) gn_missing_of_material(g, at);
+    struct gn_at baked = gn_at_extension(g, at, "extensions.MOZ_lightmap");
+    m->lightmap_intensity = clamp(gn_at_float(g, &baked, "intensity", 1), 0, 1e9f);
+    if (used) gn_extras_material(g, at, find_uv_set(sets, 1), m);
+    struct gn_at normal = gn_at_object(g, at, "normalTexture");
+    m->normal_scale = clamp(gn_at_float(g, &normal, "scale", 1), -1e4f, 1e4f);
+}
+
+/* ---- tangents ---- */
+
+static struct gn_at normal_texture(struct gn_gltf *g, struct gn_at at[3], int32_t material) {
+    at[0] = gn_at_root(g);
+    at[1] = gn_at_array(g, &at[0], "materials");
+    at[2] = gn_at_item(g, &at[1], (size_t)material);
+    return gn_at_object(g, &at[2], "normalTexture");
+}
+
+int32_t gn_gltf_tangents(struct gn_gltf *g, int32_t material) {
+    if (material < 0 || g->failed) return GN_TANGENTS_NONE;
+    float m[6];
+    bool transformed = false;
+    struct gn_at above[3], at = normal_texture(g, above, material);
+    if (!at.json || gn_at_extension(g, &above[2], "extensions.KHR_materials_unlit").json)
+        return GN_TANGENTS_NONE;
+    uint64_t sets[GN_UV_SETS];
+    gn_gltf_uv_sets(g, material, sets);
+    const int uv_set = find_uv_set(sets, read_uv(g, &at, m, &transformed));
+    if (g->failed || uv_set < 0) return GN_TANGENTS_NONE; /* read_texture() warns */
+    return transformed ? GN_TANGENTS_MATERIAL + material : GN_TANGENTS_UV + uv_set;
+}
+
+struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents) {
+    struct gn_texture_ref ref = {.texture = -1, .uv_from_uv = {1, 0, 0, 1}};
+    bool transformed = false;
+    if (tangents < GN_TANGENTS_MATERIAL) {
+        ref.uv_set = (uint8_t)(tangents - GN_TANGENTS_UV);
+        return ref;
+    }
+    struct gn_at above[3], at = normal_texture(g, above, tangents - GN_TANGENTS_MATERIAL);
+    uint64_t sets[GN_UV_SETS];
+    gn_gltf_uv_sets(g, tangents - GN_TANGENTS_MATERIAL, sets);
+    const int uv_set = find_uv_set(sets, read_uv(g, &at, ref.uv_from_uv, &transformed));
+    ref.uv_set = uv_set > 0 ? (uint8_t)uv_set : 0;
+    return ref;
 }
 
 bool gn_gltf_materials(struct gn_gltf *g) {
@@ -96,14 +242,16 @@ bool gn_gltf_materials(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
     scene->material_count = (uint32_t)g->file.material_count + 1;
     scene->materials =
-        gn_gltf_alloc(g, g->memory.scene, scene->material_count, sizeof *scene->materials);
+        gn_gltf_alloc(g, g->memory.scene, scene->material_count + 1, sizeof *scene->materials);
     bool *used = gn_gltf_alloc(g, &g->memory.load, scene->material_count, sizeof *used);
     if (g->failed) return false;
     for (uint32_t i = 0; i < scene->item_count; i++) used[scene->items[i].material] = true;
     for (size_t i = 0; i < g->file.material_count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &materials, i);
-        if (!g->failed) read_material(g, &at, used[i], &scene->materials[i]);
+        uint64_t sets[GN_UV_SETS];
+        gn_gltf_uv_sets(g, (int32_t)i, sets);
+        if (!g->failed) read_material(g, &at, used[i], sets, &scene->materials[i]);
     }
-    init_material(&scene->materials[g->file.material_count]);
+    gn_material_init(&scene->materials[g->file.material_count]);
     return !g->failed;
 }

@@ -4,6 +4,7 @@
 #include "scene/private.h"
 
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "scene/gltf/table.h"
@@ -16,12 +17,21 @@ struct reader {
     uint32_t shape_count;
 };
 
-/* The number of vertices, or 0: failed, or nothing to show (with a warning). */
-static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, int32_t *out) {
+/* The number of vertices, or 0: failed, or nothing to show (with a warning). Tangents are read
+ * where there are normals and a normal map needs them. */
+static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, bool with_tangents,
+                              const uint64_t uv_sets[GN_UV_SETS], int32_t *out) {
     struct gn_at attributes = gn_at_object(g, primitive, "attributes");
+    const char *semantics[GN_ATTRIBUTE_COUNT];
+    char uv_names[GN_UV_SETS][32];
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) semantics[i] = gn_attributes[i].semantic;
+    for (int i = 0; i < GN_UV_SETS; i++) {
+        snprintf(uv_names[i], sizeof uv_names[i], "TEXCOORD_%" PRIu64, uv_sets[i]);
+        semantics[GN_ATTRIBUTE_UV0 + i] = uv_names[i];
+    }
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        out[i] = gn_at_ref(g, &attributes, gn_attributes[i].semantic, g->file.accessor_count,
-                           "accessors");
+        out[i] = gn_at_ref(g, &attributes, semantics[i], g->file.accessor_count, "accessors");
+    if (!with_tangents || out[GN_ATTRIBUTE_NORMAL] < 0) out[GN_ATTRIBUTE_TANGENT] = -1;
     struct gn_at draco = gn_at_extension(g, primitive, "extensions.KHR_draco_mesh_compression");
     const struct gn_accessor *positions = gn_gltf_accessor(g, out[GN_ATTRIBUTE_POSITION]);
     if (g->failed) return 0;
@@ -41,7 +51,7 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         const struct gn_attribute_row *row = &gn_attributes[i];
         const struct gn_accessor *a = gn_gltf_accessor(g, out[i]);
         if (!a) continue;
-        struct gn_at at = gn_at_any(&attributes, row->semantic);
+        struct gn_at at = gn_at_any(&attributes, semantics[i]);
         if (a->components < row->components_min || a->components > row->components)
             gn_gltf_fail(g, &at, "accessor %d has %d components, must be VEC%d", out[i],
                          a->components, row->components_min);
@@ -55,7 +65,8 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
 }
 
 /* Fills the shape's key and size; false: failed or nothing to show. */
-static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct gn_shape *shape) {
+static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive,
+                       const uint64_t uv_sets[GN_UV_SETS], struct gn_shape *shape) {
     uint64_t mode = gn_at_uint(g, primitive, "mode", MODE_TRIANGLES);
     struct gn_at mode_at = gn_at_any(primitive, "mode"),
                  indices_at = gn_at_any(primitive, "indices");
@@ -66,7 +77,8 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct 
     }
     shape->mode = (int32_t)mode;
     shape->indices = gn_at_ref(g, primitive, "indices", g->file.accessor_count, "accessors");
-    uint64_t count = read_attributes(g, primitive, shape->attribute);
+    uint64_t count = read_attributes(g, primitive, shape->tangents != GN_TANGENTS_NONE, uv_sets,
+                                     shape->attribute);
     if (count == 0) return false;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
     if (g->failed) return false;
@@ -87,6 +99,19 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive, struct 
     return shape->corner_count > 0;
 }
 
+/* Which tangents are made: none where the file has them. */
+static void choose_tangents(struct gn_gltf *g, const struct gn_at *primitive,
+                            const uint64_t uv_sets[GN_UV_SETS], struct gn_shape *shape) {
+    if (shape->tangents == GN_TANGENTS_NONE) return;
+    const int uv_set = gn_gltf_tangents_uv(g, shape->tangents).uv_set;
+    const bool has_uv = shape->attribute[GN_ATTRIBUTE_UV0 + uv_set] >= 0;
+    if (!has_uv)
+        gn_gltf_warn(g, primitive, "has no TEXCOORD_%" PRIu64 "; shown without its normal map",
+                     uv_sets[uv_set]);
+    if (!has_uv) shape->attribute[GN_ATTRIBUTE_TANGENT] = -1;
+    if (!has_uv || shape->attribute[GN_ATTRIBUTE_TANGENT] >= 0) shape->tangents = GN_TANGENTS_NONE;
+}
+
 /* ---- primitives ---- */
 
 static void read_primitive(struct reader *reader, const struct gn_at *primitive, uint32_t mesh,
@@ -96,12 +121,16 @@ static void read_primitive(struct reader *reader, const struct gn_at *primitive,
     int32_t material = gn_at_ref(g, primitive, "material", g->file.material_count, "materials");
     if (gn_at_size(&(struct gn_at){.json = json_object_get(primitive->json, "targets")}) > 0)
         g->is_missing[GN_MISSING_MORPHS] = true;
-    if (g->failed || !read_shape(g, primitive, &shape) || g->failed) return;
+    shape.tangents = gn_gltf_tangents(g, material);
+    uint64_t uv_sets[GN_UV_SETS];
+    gn_gltf_uv_sets(g, material, uv_sets);
+    if (g->failed || !read_shape(g, primitive, uv_sets, &shape) || g->failed) return;
+    choose_tangents(g, primitive, uv_sets, &shape);
     uint32_t *known = gn_table_find(&reader->shapes, shape.attribute);
     if (*known == 0) {
-        /* only vertices with normals in the file are shared: flat normals depend on the triangles
-         */
-        if (shape.attribute[GN_ATTRIBUTE_NORMAL] >= 0) {
+        /* only vertices with all in the file are shared: flat normals and tangents depend on the
+         * triangles */
+        if (shape.attribute[GN_ATTRIBUTE_NORMAL] >= 0 && shape.tangents == GN_TANGENTS_NONE) {
             uint32_t *set = gn_table_find(&reader->vertices, shape.attribute);
             if (*set == 0) {
                 struct gn_vertices *vertices =
@@ -137,13 +166,13 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
         gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.vertices);
     if (g->failed) return false;
     reader.shapes = (struct gn_table){.stride = sizeof *g->primitives.shapes,
-                                      .key_size = (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t),
+                                      .key_size = (GN_ATTRIBUTE_COUNT + 3) * sizeof(int32_t),
                                       .keys = (const char *)g->primitives.shapes};
     reader.vertices = (struct gn_table){.stride = sizeof *g->primitives.vertices,
                                         .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
                                         .keys = (const char *)g->primitives.vertices};
-    _Static_assert(offsetof(struct gn_shape, mode) == (GN_ATTRIBUTE_COUNT + 1) * sizeof(int32_t),
-                   "key");
+    _Static_assert(
+        offsetof(struct gn_shape, tangents) == (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t), "key");
     if (!gn_table_init(g, &reader.shapes, primitives) ||
         !gn_table_init(g, &reader.vertices, primitives))
         return false;

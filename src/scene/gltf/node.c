@@ -188,8 +188,9 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     g->file.mesh_count = gn_at_size(&meshes);
     g->file.node_count = tree.count;
     g->file.meshes = gn_gltf_alloc(g, &g->memory.load, g->file.mesh_count, sizeof *g->file.meshes);
-    g->scene->nodes = gn_gltf_alloc(g, g->memory.scene, tree.count + 2, sizeof *g->scene->nodes);
-    g->placed = gn_gltf_alloc(g, &g->memory.load, tree.count + 2, sizeof *g->placed);
+    g->scene->nodes =
+        gn_gltf_alloc(g, g->memory.scene, tree.count + GN_ADDED_NODES, sizeof *g->scene->nodes);
+    g->placed = gn_gltf_alloc(g, &g->memory.load, tree.count + GN_ADDED_NODES, sizeof *g->placed);
     if (g->failed || !read_tree(&tree)) return false;
 
     int32_t *listed = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *listed);

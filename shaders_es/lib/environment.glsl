@@ -1,0 +1,39 @@
+// Light from all directions: src/environment/. With ENVIRONMENT_SCALED PASS_SKY.w is the factor on its radiance, else that is 1.
+
+// A vertex is enough for diffuse light, which changes little from one normal to the next; not with a normal map.
+#if defined WITH_ENVIRONMENT_DIFFUSE && !defined WITH_NORMAL_TEXTURE
+#define WITH_IRRADIANCE 1
+#endif
+
+// A direction in the environment's own frame, which is turned about +Y.
+vec3 environment_direction(vec3 d) {
+#ifdef WITH_ENVIRONMENT_TURNED
+    vec2 turn = u_pass[PASS_ENVIRONMENT + ENVIRONMENT_TURN].xy;
+    d = vec3(turn.x * d.x + turn.y * d.z, d.y, turn.x * d.z - turn.y * d.x);
+#endif
+    return d;
+}
+
+// Radiance of a white diffuse surface with the normal n, in two parts: on the other side the second one is negated. Ramamoorthi,
+// Hanrahan, "An Efficient Representation for Irradiance Environment Maps" (2001).
+void environment_diffuse(vec3 n, out vec3 even, out vec3 odd) {
+    n = environment_direction(n);
+#define HARMONIC(i) u_pass[PASS_ENVIRONMENT + i].xyz
+    odd = HARMONIC(1) * n.y + HARMONIC(2) * n.z + HARMONIC(3) * n.x;
+    even = HARMONIC(0) + HARMONIC(4) * (n.x * n.y) + HARMONIC(5) * (n.y * n.z) + HARMONIC(6) * (3.0 * n.z * n.z - 1.0) +
+           HARMONIC(7) * (n.x * n.z) + HARMONIC(8) * (n.x * n.x - n.y * n.y);
+    even = max(even, 0.0);
+    odd = clamp(odd, -even, even); // no light is negative on either side
+}
+
+#ifdef WITH_ENVIRONMENT
+// Share of the environment that a surface reflects, by its reflectance at normal incidence. Karis, "Physically Based Shading on
+// Mobile" (2014): f0 a + b, where a + b = 1 - 0.55 roughness; his b without a factor of 1.04 and terms under 0.005. What one reflection loses between
+// microfacets comes back by further ones, each dimmed by f0: Fdez-Aguera, "A Multiple-Scattering Microfacet Model for Real-Time
+// Image-Based Lighting" (2019), to the first order. So white reflects all.
+vec3 environment_share(vec3 f0, float roughness, float n_v) {
+    float smooth_part = 1.0 - roughness, lost = 0.55 * roughness;
+    float b = smooth_part * min(smooth_part * smooth_part, exp2(-9.28 * n_v));
+    return b + f0 * ((1.0 - b) + lost * (f0 - 1.0));
+}
+#endif

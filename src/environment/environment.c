@@ -1,0 +1,80 @@
+#include "environment/environment.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/arena.h"
+#include "core/hash.h"
+#include "environment/private.h"
+#include "image/read.h"
+
+/* ---- making one ---- */
+
+static void make_light(const struct gn_sphere *sphere, int threads,
+                       struct gn_environment_light *out) {
+    gn_sphere_prefilter(sphere, threads, out->texels);
+    gn_sphere_harmonics(sphere, out->harmonics);
+}
+
+void gn_environment_make(struct gn_sphere *sphere, int threads, struct gn_environment *out) {
+    gn_sphere_complete(sphere);
+    make_light(sphere, threads, &out->whole);
+    gn_sphere_take_key(sphere, &out->key);
+    make_light(sphere, threads, &out->rest);
+}
+
+struct picture {
+    struct gn_sphere *sphere;
+    uint32_t px[2];
+    float (*row)[3];
+};
+
+static void add_picture_row(void *user, uint32_t y, const uint8_t *rgbe) {
+    const struct picture *p = user;
+    for (uint32_t x = 0; x < p->px[0]; x++) gn_hdr_color(rgbe + 4 * x, p->row[x]);
+    gn_sphere_add_row(p->sphere, y, p->px, (const float(*)[3])p->row);
+}
+
+bool gn_environment_read_hdr(const uint8_t *data, size_t size, int threads,
+                             struct gn_environment *out, struct gn_err *err) {
+    struct picture p = {0};
+    if (!gn_hdr_size(data, size, p.px, err)) return false;
+    p.sphere = gn_sphere_create();
+    p.row = gn_xalloc(p.px[0], sizeof *p.row);
+    const bool ok = gn_hdr_read(data, size, add_picture_row, &p, err);
+    if (ok) gn_environment_make(p.sphere, threads, out);
+    free(p.row);
+    gn_sphere_destroy(p.sphere);
+    return ok;
+}
+
+/* ---- kept: a name with the version, words in little-endian order, a hash of all before ---- */
+
+static const char name[8] = "GNENV 1";
+enum { WORDS = sizeof(struct gn_environment) / 4 };
+_Static_assert(sizeof(struct gn_environment) % 4 == 0, "words");
+
+void gn_environment_write(const struct gn_environment *environment,
+                          uint8_t out[GN_ENVIRONMENT_FILE_BYTES]) {
+    memcpy(out, name, 8);
+    for (int i = 0; i < WORDS; i++) {
+        uint32_t word;
+        memcpy(&word, (const char *)environment + 4 * i, 4);
+        for (int k = 0; k < 4; k++) out[8 + 4 * i + k] = (uint8_t)(word >> 8 * k);
+    }
+    const uint64_t hash = gn_hash(GN_HASH_INIT, out, GN_ENVIRONMENT_FILE_BYTES - 8);
+    for (int k = 0; k < 8; k++) out[GN_ENVIRONMENT_FILE_BYTES - 8 + k] = (uint8_t)(hash >> 8 * k);
+}
+
+bool gn_environment_read(const uint8_t *data, size_t size, struct gn_environment *out) {
+    if (size != GN_ENVIRONMENT_FILE_BYTES || memcmp(data, name, 8) != 0) return false;
+    const uint64_t hash = gn_hash(GN_HASH_INIT, data, GN_ENVIRONMENT_FILE_BYTES - 8);
+    for (int k = 0; k < 8; k++)
+        if (data[GN_ENVIRONMENT_FILE_BYTES - 8 + k] != (uint8_t)(hash >> 8 * k)) return false;
+    for (int i = 0; i < WORDS; i++) {
+        uint32_t word = 0;
+        for (int k = 0; k < 4; k++) word |= (uint32_t)data[8 + 4 * i + k] << 8 * k;
+        memcpy((char *)out + 4 * i, &word, 4);
+    }
+    return true;
+}

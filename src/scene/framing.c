@@ -1,0 +1,141 @@
+/* The fit is exact: a plane of the frustum that touches the points gives one equation for the eye,
+ * two opposite planes its place on one axis and its distance. */
+#include "scene/framing.h"
+
+#include <math.h>
+
+static const float FILLED = .92f; /* of half of the picture */
+
+/* How far the points reach along n, from the centre. A point that turns about the vertical axis
+ * reaches farthest where its radius points as n does. */
+static float find_reach(const struct gn_framing_fit *fit, const vec3 n) {
+    float most = -INFINITY;
+    const float aside = hypotf(n[0], n[2]);
+    for (uint32_t i = 0; i < fit->extent->count; i++) {
+        vec3 p;
+        glm_vec3_sub(fit->extent->points[i], (float *)fit->centre_ws, p);
+        const float reach =
+            fit->turns ? n[1] * p[1] + aside * hypotf(p[0], p[2]) : glm_vec3_dot((float *)n, p);
+        most = fmaxf(most, reach);
+    }
+    return most;
+}
+
+static float reach_between(const struct gn_framing_fit *fit, const vec3 axis, float sign,
+                           const vec3 back, float slope) {
+    vec3 n;
+    for (int k = 0; k < 3; k++) n[k] = sign * axis[k] + slope * back[k];
+    return find_reach(fit, n);
+}
+
+void gn_framing_fit(const struct gn_framing_fit *fit, vec3 axes[3], struct gn_camera *camera,
+                    vec3 eye_ws) {
+    const float slope = tanf(camera->yfov_rad / 2) * FILLED;
+    vec3 forward;
+    glm_vec3_negate_to(axes[2], forward);
+    const float nearest = find_reach(fit, axes[2]), farthest = -find_reach(fit, forward);
+    float aside[2], distance = 0, size = nearest - farthest; /* all from the centre */
+    for (int k = 0; k < 2; k++) {
+        const float s = k == 0 ? slope * fit->aspect : slope;
+        const float more = reach_between(fit, axes[k], 1, axes[2], s),
+                    less = reach_between(fit, axes[k], -1, axes[2], s);
+        aside[k] = (more - less) / 2;
+        if (fit->target_ws) {
+            vec3 to;
+            glm_vec3_sub((float *)fit->target_ws, (float *)fit->centre_ws, to);
+            aside[k] = glm_vec3_dot(axes[k], to);
+        }
+        distance = fmaxf(distance, fmaxf(more - aside[k], less + aside[k]) / s);
+        size = fmaxf(size, more + less);
+    }
+    size = fmaxf(size, 1e-3f);
+    distance = fmaxf(distance, nearest + .05f * size);
+    glm_vec3_copy((float *)fit->centre_ws, eye_ws);
+    glm_vec3_muladds(axes[0], aside[0], eye_ws);
+    glm_vec3_muladds(axes[1], aside[1], eye_ws);
+    glm_vec3_muladds(axes[2], distance, eye_ws);
+    camera->near_m = fmaxf((distance - nearest) / 2, distance / 100);
+    camera->far_m = distance - farthest + size;
+}
+
+static bool is_made(const struct gn_scene *scene, uint32_t camera) {
+    return scene->added.camera && camera + 1 == scene->camera_count;
+}
+
+/* Near and far plane around all that is drawn, from any place. */
+static void set_planes(const struct gn_framing_fit *fit, vec3 back, float distance_m,
+                       const vec3 eye_ws, struct gn_camera *camera) {
+    vec3 forward, from_centre;
+    glm_vec3_negate_to(back, forward);
+    glm_vec3_sub((float *)eye_ws, (float *)fit->centre_ws, from_centre);
+    const float away = glm_vec3_dot(from_centre, back);
+    camera->near_m = fmaxf((away - find_reach(fit, back)) / 2, distance_m / 100);
+    camera->far_m = fmaxf(1.1f * (away + find_reach(fit, forward)), 10 * camera->near_m);
+}
+
+/* axes: of the camera as it stands; gets those of the place that is given. Sets eye_ws. */
+static void place_camera(const struct gn_framing_opts *opts, struct gn_framing_fit *fit, bool made,
+                         vec3 axes[3], struct gn_framing *framing) {
+    struct gn_camera *c = &framing->camera;
+    vec3 to_centre, target;
+    glm_vec3_sub(fit->centre_ws, framing->eye_ws, to_centre);
+    float distance = -glm_vec3_dot(to_centre, axes[2]);
+    const float size = fmaxf(find_reach(fit, axes[2]), 1e-3f);
+    if (distance < .05f * size) distance = size; /* it looks elsewhere */
+    glm_vec3_copy(framing->eye_ws, target);
+    glm_vec3_muladds(axes[2], -distance, target);
+    if (made) glm_vec3_copy(fit->centre_ws, target);
+    if (opts->given & GN_FRAMING_TARGET) glm_vec3_copy((float *)opts->target_ws, target);
+    if (opts->given & (GN_FRAMING_THETA | GN_FRAMING_PHI | GN_FRAMING_TARGET) || made) {
+        const bool turned = opts->given & GN_FRAMING_THETA, tilted = opts->given & GN_FRAMING_PHI;
+        const float theta = turned ? opts->theta_rad : atan2f(axes[2][0], axes[2][2]);
+        const float phi = glm_clamp(tilted ? opts->phi_rad : acosf(glm_clamp(axes[2][1], -1, 1)),
+                                    1e-3f, GLM_PIf - 1e-3f);
+        glm_vec3_copy((vec3){sinf(phi) * sinf(theta), cosf(phi), sinf(phi) * cosf(theta)}, axes[2]);
+        glm_vec3_copy((vec3){cosf(theta), 0, -sinf(theta)}, axes[0]);
+        glm_vec3_cross(axes[2], axes[0], axes[1]);
+    }
+    const bool near_as_fits = made && !(opts->given & GN_FRAMING_DISTANCE);
+    if (near_as_fits) {
+        if (opts->given & GN_FRAMING_TARGET) fit->target_ws = target;
+        gn_framing_fit(fit, axes, c, framing->eye_ws);
+        glm_vec3_sub(framing->eye_ws, target, to_centre);
+        framing->distance_m = fmaxf(glm_vec3_dot(to_centre, axes[2]), 1e-6f);
+        return;
+    }
+    framing->distance_m =
+        opts->given & GN_FRAMING_DISTANCE ? fmaxf(opts->distance_m, 1e-6f) : distance;
+    glm_vec3_copy(target, framing->eye_ws);
+    glm_vec3_muladds(axes[2], framing->distance_m, framing->eye_ws);
+    if (made) set_planes(fit, axes[2], framing->distance_m, framing->eye_ws, c);
+}
+
+void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
+                      const struct gn_framing_opts *opts, struct gn_framing *framing) {
+    const struct gn_scene *scene = pose->scene;
+    const bool made = is_made(scene, camera), placed = opts->given & GN_FRAMING_PLACE;
+    const float aspect = opts->aspect > 0 ? opts->aspect : 1;
+    struct gn_camera *c = &framing->camera;
+    *c = scene->cameras[camera];
+    framing->distance_m = 0;
+    gn_pose_view(pose, camera, framing->view_from_world, framing->eye_ws);
+    if (opts->given & GN_FRAMING_FOV && !c->orthographic) c->yfov_rad = opts->yfov_rad;
+    if (c->aspect > aspect) c->yfov_rad = 2 * atanf(tanf(c->yfov_rad / 2) * c->aspect / aspect);
+    if (!made && !placed) return;
+    struct gn_framing_fit fit = {.extent = &scene->extents[pose->clips - GN_POSE_NONE],
+                                 .aspect = aspect,
+                                 .turns = opts->turns};
+    vec3 axes[3];
+    vec4 *view = framing->view_from_world;
+    for (int row = 0; row < 3; row++)
+        for (int k = 0; k < 3; k++) axes[row][k] = view[k][row];
+    glm_vec3_center((float *)scene->box.min, (float *)scene->box.max, fit.centre_ws);
+    if (placed)
+        place_camera(opts, &fit, made, axes, framing);
+    else
+        gn_framing_fit(&fit, axes, c, framing->eye_ws);
+    for (int row = 0; row < 3; row++) {
+        for (int k = 0; k < 3; k++) view[k][row] = axes[row][k];
+        view[3][row] = -glm_vec3_dot(axes[row], framing->eye_ws);
+    }
+}

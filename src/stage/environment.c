@@ -1,0 +1,191 @@
+#include "stage/environment.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/arena.h"
+#include "core/embedded.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "stage/lights.h"
+
+enum {
+    FILE_MB = 256, /* of a Radiance file */
+    KEPT_MAX = 16, /* files in the cache */
+    THREADS = 2,
+    OPEN_MAX = 16, /* environments of all modes */
+};
+
+/* ---- kept files: named by the content that they were made of ---- */
+
+static const char kept_prefix[] = "environment-", kept_suffix[] = ".env";
+
+bool gn_stage_cache_folder(char *out, size_t size) {
+    const char *own = getenv("CACHE_DIRECTORY"), *base = getenv("XDG_CACHE_HOME"),
+               *home = getenv("HOME");
+    int length = -1;
+    if (own && own[0] == '/') /* systemd's; the first of several */
+        length = snprintf(out, size, "%.*s", (int)strcspn(own, ":"), own);
+    else if (base && base[0] == '/')
+        length = snprintf(out, size, "%s/gnomon", base);
+    else if (home && home[0] == '/')
+        length = snprintf(out, size, "%s/.cache/gnomon", home);
+    return length > 0 && (size_t)length < size;
+}
+
+static bool is_kept_name(const char *name) {
+    const size_t length = strlen(name), suffix = sizeof kept_suffix - 1;
+    return strncmp(name, kept_prefix, sizeof kept_prefix - 1) == 0 && length > suffix &&
+           strcmp(name + length - suffix, kept_suffix) == 0;
+}
+
+/* Removes the oldest kept files until there are few enough. */
+static void bound_cache(const char *folder) {
+    for (;;) {
+        char path[4096], oldest[4096] = "";
+        struct timespec when = {0};
+        int count = 0;
+        DIR *dir = opendir(folder);
+        if (!dir) return;
+        for (struct dirent *entry; (entry = readdir(dir));) {
+            struct stat info;
+            if (!is_kept_name(entry->d_name)) continue;
+            const int length = snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
+            if (length >= (int)sizeof path || lstat(path, &info) < 0 || !S_ISREG(info.st_mode))
+                continue;
+            const bool older =
+                info.st_mtim.tv_sec < when.tv_sec ||
+                (info.st_mtim.tv_sec == when.tv_sec && info.st_mtim.tv_nsec < when.tv_nsec);
+            if (count++ > 0 && !older) continue;
+            when = info.st_mtim;
+            memcpy(oldest, path, sizeof oldest);
+        }
+        closedir(dir);
+        if (count <= KEPT_MAX || unlink(oldest) < 0) return;
+    }
+}
+
+/* Fails silently: what cannot be kept is made again. */
+static void keep_environment(const char *folder, const char *path,
+                             const struct gn_environment *environment) {
+    struct gn_err unused = {0};
+    char parent[4096];
+    uint8_t *bytes = gn_xalloc(1, GN_ENVIRONMENT_FILE_BYTES);
+    gn_environment_write(environment, bytes);
+    snprintf(parent, sizeof parent, "%s", folder);
+    char *slash = strrchr(parent, '/');
+    if (slash && slash > parent) *slash = '\0';
+    mkdir(parent, 0700);
+    mkdir(folder, 0700);
+    if (gn_file_replace(path, bytes, GN_ENVIRONMENT_FILE_BYTES, &unused)) bound_cache(folder);
+    free(bytes);
+}
+
+static bool load_kept(const char *path, struct gn_environment *out) {
+    struct gn_err unused = {0};
+    struct gn_bytes kept = {0};
+    const bool ok = gn_file_read(path, GN_ENVIRONMENT_FILE_BYTES, &kept, &unused) &&
+                    gn_environment_read(kept.data, kept.size, out);
+    gn_bytes_finish(&kept);
+    return ok;
+}
+
+static bool read_file(const char *path, struct gn_environment *out, struct gn_err *err) {
+    struct gn_bytes bytes = {0};
+    char folder[4000], kept[4096];
+    if (!gn_file_read(path, (size_t)FILE_MB << 20, &bytes, err)) return false;
+    const uint64_t hash = gn_hash(GN_HASH_INIT, bytes.data, bytes.size);
+    const bool keeps = gn_stage_cache_folder(folder, sizeof folder);
+    if (keeps)
+        snprintf(kept, sizeof kept, "%s/%s%016llx-%zu%s", folder, kept_prefix,
+                 (unsigned long long)hash, bytes.size, kept_suffix);
+    bool ok = keeps && load_kept(kept, out);
+    if (!ok) {
+        ok = gn_environment_read_hdr(bytes.data, bytes.size, THREADS, out, err);
+        if (!ok) gn_fail_prefix(err, "%s", path);
+        if (ok && keeps) keep_environment(folder, kept, out);
+    }
+    gn_bytes_finish(&bytes);
+    return ok;
+}
+
+/* ---- those that are open ---- */
+
+/* Frame options of all modes point to them. */
+static struct open_environment {
+    char *name;
+    struct stat info; /* of the file, when it was read */
+    struct gn_environment *of;
+    uint64_t id;
+} all_open[OPEN_MAX];
+
+static bool is_same_file(const struct stat *a, const struct stat *b) {
+    return a->st_dev == b->st_dev && a->st_ino == b->st_ino && a->st_size == b->st_size &&
+           a->st_mtim.tv_sec == b->st_mtim.tv_sec && a->st_mtim.tv_nsec == b->st_mtim.tv_nsec;
+}
+
+static bool read_studio(struct gn_environment *out, struct gn_err *err) {
+    const struct gn_embedded *file = gn_embedded_find("studio.env");
+    return (file && gn_environment_read(file->data, file->size, out)) ||
+           gn_fail(err, "this build has no studio inside; use --environment none");
+}
+
+static const struct open_environment *open_environment(const char *name, struct gn_err *err) {
+    const bool is_studio = strcmp(name, "studio") == 0;
+    struct stat info = {0};
+    int i = 0;
+    if (!is_studio && stat(name, &info) < 0) {
+        gn_fail(err, "%s: %s", name, strerror(errno));
+        return NULL;
+    }
+    while (i < OPEN_MAX && all_open[i].name && strcmp(all_open[i].name, name) != 0) i++;
+    if (i == OPEN_MAX) {
+        gn_fail(err, "%s: at most %d environments in one process", name, OPEN_MAX);
+        return NULL;
+    }
+    struct open_environment *open = &all_open[i];
+    if (open->name && is_same_file(&open->info, &info)) return open;
+    struct gn_environment *read = gn_xalloc(1, sizeof *read);
+    if (!(is_studio ? read_studio(read, err) : read_file(name, read, err))) {
+        free(read);
+        return NULL;
+    }
+    if (!open->name) {
+        open->name = gn_xalloc(strlen(name) + 1, 1);
+        memcpy(open->name, name, strlen(name) + 1);
+        open->of = gn_xalloc(1, sizeof *open->of);
+    }
+    *open->of = *read;
+    open->info = info;
+    open->id = (gn_hash(GN_HASH_INIT, read, sizeof *read) | 2) & ~UINT64_C(1);
+    free(read);
+    return open;
+}
+
+/* ---- of a look ---- */
+
+bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settings *settings,
+                              const struct gn_scene *scene, struct gn_err *err) {
+    const char *name = settings->render.environment;
+    const float strength = (float)settings->render.environment_strength;
+    opts->environment = (struct gn_frame_environment_opts){0};
+    if (!name || strcmp(name, "auto") == 0 || strcmp(name, "none") == 0 || strength <= 0.0f)
+        return true;
+    const struct open_environment *open = open_environment(name, err);
+    if (!open) return false;
+    opts->environment = (struct gn_frame_environment_opts){
+        .of = open->of,
+        .id = open->id,
+        .lights_key = scene->added.light,
+        .turn_rad = glm_rad((float)settings->render.environment_turn_deg),
+        .strength = strength,
+    };
+    if (scene->added.light) gn_stage_set_key(&opts->shadow, scene, &open->of->key, strength);
+    return true;
+}

@@ -1,0 +1,20 @@
+/* Environments by name: the studio inside the program, and Radiance files, which are prefiltered
+ * once and kept in a folder for caches. */
+#ifndef GN_STAGE_ENVIRONMENT_H
+#define GN_STAGE_ENVIRONMENT_H
+
+#include "core/warn.h"
+#include "frame/frame.h"
+#include "options/settings.h"
+
+/* Fills opts->environment, and the colour and radius of a light made as its key among
+ * opts->shadow's lights, which are set already. False: the file is missing or bad. Environments
+ * stay until the process ends; a file that changed replaces what was read of it. Not for several
+ * threads. */
+bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settings *settings,
+                              const struct gn_scene *scene, struct gn_err *err);
+/* The folder of kept environments: $CACHE_DIRECTORY, else gnomon in $XDG_CACHE_HOME or in .cache of
+ * $HOME; false: there is none. */
+bool gn_stage_cache_folder(char *out, size_t size);
+
+#endif

@@ -1,0 +1,53 @@
+#include "image/drawer.h"
+
+#include <stdlib.h>
+
+#include "core/arena.h"
+#include "options/args.h"
+#include "stage/stage.h"
+
+struct gn_drawer {
+    const char *scene;
+    struct gn_stage stage;
+    struct gn_options options; /* of the last picture; zeroed: none yet */
+};
+
+struct gn_drawer *gn_drawer_create(const char *scene) {
+    struct gn_drawer *drawer = gn_xalloc(1, sizeof *drawer);
+    *drawer = (struct gn_drawer){.scene = scene};
+    return drawer;
+}
+
+static bool look(struct gn_drawer *drawer, const struct gn_settings *settings, struct gn_err *err) {
+    struct gn_stage_look look;
+    if (!drawer->stage.gl) {
+        const bool ok = gn_stage_load(&drawer->stage, settings, NULL, err) &&
+                        gn_stage_open(&drawer->stage, NULL, err);
+        if (!ok) gn_stage_close(&drawer->stage);
+        return ok;
+    }
+    if (!gn_stage_look_build(&look, settings, drawer->stage.scene, NULL, err)) return false;
+    drawer->stage.frame_opts = look.frame_opts;
+    return true;
+}
+
+bool gn_drawer_draw(struct gn_drawer *drawer, const char *const args[], float *rgba,
+                    struct gn_err *err) {
+    const char *argv[40] = {"gnomon", "render", drawer->scene, "-o", "none.pfm"};
+    struct gn_options options;
+    int argc = 5;
+    while (*args && argc < 40) argv[argc++] = *args++;
+    bool ok = gn_args_parse(&options, argc, (char *const *)(uintptr_t)argv, NULL, err);
+    ok = ok && look(drawer, options.settings, err);
+    drawer->stage.settings = options.settings;
+    gn_options_finish(&drawer->options);
+    drawer->options = options;
+    return ok && gn_stage_draw(&drawer->stage, 0, NULL, err) &&
+           gn_gl_read_f32(drawer->stage.gl, rgba, err);
+}
+
+void gn_drawer_destroy(struct gn_drawer *drawer) {
+    gn_stage_close(&drawer->stage);
+    gn_options_finish(&drawer->options);
+    free(drawer);
+}

@@ -1,0 +1,187 @@
+/* Blended surfaces in the order in which they hide each other: opaque texels as if they were not
+ * blended, whatever the order of items; back faces before front faces; shadows by alpha. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/shot.h"
+#include "unit/check.h"
+#include "unit/gltf_maker.h"
+
+enum { WIDTH = 160, HEIGHT = 90, FEW = 1, MANY = 11 };
+
+/* Seen from above, 16 m wide; every colour is emitted. At x = 2 m a red sheet lies over a green
+ * one, but its middle is farther; so is the middle of a blue one, half clear, that lies over both.
+ * At x = -5 m one mesh has a clear yellow square, and behind it, later in the file, a cyan one that
+ * turns its back. */
+static const char *make_scene(const char *name, int lights) {
+    static char path[600];
+    static const float near_m = 1, far_m = -1;
+    const float positions[8][3] = {{-6, near_m, -1}, {-6, near_m, 1}, {-4, near_m, 1},
+                                   {-4, near_m, -1}, {-6, far_m, -1}, {-4, far_m, -1},
+                                   {-4, far_m, 1},   {-6, far_m, 1}};
+    const float colors[8][4] = {{1, 1, 0, 1}, {1, 1, 0, 1}, {1, 1, 0, 1}, {1, 1, 0, 1},
+                                {0, 1, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}};
+    static const uint16_t indices[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    char json[2000] = "{'KHR_lights_punctual':{'lights':[", list[400] = "[{'nodes':[0", text[500];
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    const int at = gn_maker_accessor(&maker, "VEC3", 5126, 8, positions, sizeof positions,
+                                     "'min':[-6,-1,-1],'max':[-4,1,1]");
+    const int color = gn_maker_accessor(&maker, "VEC4", 5126, 8, colors, sizeof colors, NULL);
+    const int index = gn_maker_accessor(&maker, "SCALAR", 5123, 12, indices, sizeof indices, NULL);
+    gn_maker_set(&maker, "materials",
+                 "[{'alphaMode':'BLEND','doubleSided':true,'emissiveFactor':[0,1,0],"
+                 "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorFactor':[0,0,0,1]}},"
+                 "{'alphaMode':'BLEND','doubleSided':true,'emissiveFactor':[1,0,0],"
+                 "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorFactor':[0,0,0,0.995]}},"
+                 "{'alphaMode':'BLEND','doubleSided':true,'emissiveFactor':[0,0,1],"
+                 "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorFactor':[0,0,0,0.5]}},"
+                 "{'alphaMode':'BLEND','doubleSided':true,'extensions':{'KHR_materials_unlit':{}},"
+                 "'pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5]}}]");
+    gn_maker_set(&maker, "meshes", "[]");
+    for (int i = 0; i < 3; i++) {
+        snprintf(text, sizeof text,
+                 "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':%d}]}", i);
+        gn_maker_add(&maker, "meshes", text);
+    }
+    snprintf(text, sizeof text,
+             "{'primitives':[{'attributes':{'POSITION':%d,'COLOR_0':%d},'indices':%d,'material':3}]"
+             "}",
+             at, color, index);
+    gn_maker_add(&maker, "meshes", text);
+    gn_maker_set(&maker, "nodes",
+                 "[{'camera':0,'translation':[0,16,0],'rotation':[-0.70710678,0,0,0.70710678]},"
+                 "{'mesh':0,'translation':[2,1,0],'scale':[0.8,1,1]},"
+                 "{'mesh':1,'rotation':[0,0,0.3826834,0.9238795],'scale':[4.5,1,1.5]},"
+                 "{'mesh':2,'translation':[-1,-3,0],'rotation':[0,0,0.5504,0.8349],"
+                 "'scale':[9,1,1]},"
+                 "{'mesh':3}]");
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'orthographic','orthographic':{'xmag':8,'ymag':4.5,'znear':1,"
+                 "'zfar':40}}]");
+    for (int i = 0; i < lights; i++) {
+        sprintf(json + strlen(json), "%s{'type':'directional','intensity':0.1}", i ? "," : "");
+        snprintf(text, sizeof text,
+                 "{'rotation':[-0.65,%.3f,0,0.75],'extensions':{'KHR_lights_punctual':{'light':%d}}"
+                 "}",
+                 0.01 * i, i);
+        gn_maker_add(&maker, "nodes", text);
+    }
+    strcat(json, "]}}");
+    gn_maker_set(&maker, "extensions", json);
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual','KHR_materials_unlit']");
+    for (int i = 1; i < 5 + lights; i++) sprintf(list + strlen(list), ",%d", i);
+    strcat(list, "],'extras':{'gnomon_background':0}}]");
+    gn_maker_set(&maker, "scenes", list);
+    snprintf(path, sizeof path, "%s/blended-%s.glb", gn_shot_build(), name);
+    if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
+    return path;
+}
+
+static void expect_at(const struct gn_picture *picture, double x_m, const double wanted[3]) {
+    const float *got = gn_picture_at(picture, (int)((x_m + 8) * 10), HEIGHT / 2);
+    for (int k = 0; k < 3; k++)
+        if (fabs((double)got[k] - wanted[k]) > 0.01)
+            fail_msg("at %.1f m: %.3f %.3f %.3f, not %.3f %.3f %.3f", x_m, (double)got[0],
+                     (double)got[1], (double)got[2], wanted[0], wanted[1], wanted[2]);
+}
+
+static void draw_and_check(const char *path) {
+    struct gn_picture picture;
+    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    const char *const args[] = {"--size", "160x90",     "--backend", "egl", "--shadow",
+                                "none",   "--exposure", "0",         NULL};
+    if (!gn_shot(&picture, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
+    expect_at(&picture, 2.0, (double[]){0.5, 0, 0.5});      /* blue over red over green */
+    expect_at(&picture, -5.0, (double[]){0.5, 0.75, 0.25}); /* yellow over cyan */
+    gn_picture_finish(&picture);
+}
+
+static void test_what_is_nearer_hides_what_is_farther(void **state) {
+    (void)state;
+    draw_and_check(make_scene("few", FEW));
+}
+
+static void test_so_it_does_where_lights_are_added(void **state) {
+    (void)state;
+    draw_and_check(make_scene("many", MANY));
+}
+
+/* ---- shadows by alpha ---- */
+
+/* A ground of 8 m, and a pane of 2 m over it with an alpha of .3, under a sun in the zenith. */
+static const char *make_pane(bool casts) {
+    static char path[600];
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    char nodes[800];
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'metallicFactor':0}},{'alphaMode':'BLEND',"
+                 "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorFactor':[1,1,1,0.3]}}]");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]},"
+                 "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':1}]}]");
+    snprintf(
+        nodes, sizeof nodes,
+        "[{'camera':0,'translation':[0,16,0],'rotation':[-0.70710678,0,0,0.70710678]},"
+        "{'mesh':0,'scale':[4,1,4]},{'mesh':1,'translation':[0,1,0]%s},"
+        "{'rotation':[-0.70710678,0,0,0.70710678],'extensions':{'KHR_lights_punctual':{'light':"
+        "0}}}]",
+        casts ? ",'extras':{'gnomon_cast_alpha':true}" : "");
+    gn_maker_set(&maker, "nodes", nodes);
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'orthographic','orthographic':{'xmag':2.4,'ymag':1.35,'znear':1,"
+                 "'zfar':40}}]");
+    gn_maker_set(&maker, "extensions",
+                 "{'KHR_lights_punctual':{'lights':[{'type':'directional','intensity':1}]}}");
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2,3]}]");
+    snprintf(path, sizeof path, "%s/pane-%s.glb", gn_shot_build(), casts ? "casts" : "clear");
+    if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
+    return path;
+}
+
+/* The mean of the visibility under the inner half of the pane. */
+static double light_under(const char *path, const char *technique, const char *planar) {
+    struct gn_picture picture;
+    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    const char *const args[] = {"--size",     "320x180",  "--backend", "egl",      "--aov",
+                                "visibility", "--shadow", technique,   "--planar", planar,
+                                "--map",      "512",      NULL};
+    double sum = 0;
+    if (!gn_shot(&picture, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
+    for (int y = 57; y < 123; y++)
+        for (int x = 127; x < 193; x++) sum += (double)*gn_picture_at(&picture, x, y);
+    gn_picture_finish(&picture);
+    return sum / (66 * 66);
+}
+
+static void test_a_blended_caster_takes_its_alpha_of_the_light(void **state) {
+    (void)state;
+    static const char *const ways[][2] = {
+        {"hard", "mask"}, {"pcf", "mask"},  {"pcss", "mask"},   {"cone", "mask"},
+        {"vsm", "mask"},  {"msm", "mask"},  {"planar", "mask"}, {"planar", "stencil"},
+        {"disk", "mask"}, {"smsm", "mask"}, {"pcf5", "mask"},   {"evsm", "mask"}};
+    for (size_t i = 0; i < (gn_shot_full() ? 12 : 8); i++) {
+        const double clear = light_under(make_pane(false), ways[i][0], ways[i][1]);
+        const double under = light_under(make_pane(true), ways[i][0], ways[i][1]);
+        print_message("%s %s: %.3f\n", ways[i][0], ways[i][1], under);
+        if (clear < 0.999) fail_msg("%s: a blended pane casts: %.3f", ways[i][0], clear);
+        if (fabs(under - 0.7) > 0.1) fail_msg("%s: %.3f, not .7", ways[i][0], under);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_is_nearer_hides_what_is_farther),
+        cmocka_unit_test(test_so_it_does_where_lights_are_added),
+        cmocka_unit_test(test_a_blended_caster_takes_its_alpha_of_the_light),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

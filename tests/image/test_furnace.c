@@ -1,0 +1,287 @@
+/* Environments in pictures. In a uniform one white surfaces of any roughness, metal or not, reflect
+ * all that arrives: a sphere loses at most 3 % and gains nothing. A file's result is kept, and made
+ * again where what was kept is broken. */
+#include <dirent.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "environment/environment.h"
+#include "image/shot.h"
+#include "unit/check.h"
+#include "unit/gltf_maker.h"
+
+enum { AROUND = 64, DOWN = 32, POINTS = (AROUND + 1) * (DOWN + 1), TRIANGLES = 2 * AROUND * DOWN };
+enum { ROUGHNESSES = 9, WIDTH = 480, HEIGHT = 120 };
+
+static char folder[512], scenes[3][600], uniform[600], half[600];
+
+/* A row of spheres of rising roughness. light: one of its own, unlike any other. */
+static void write_spheres(const char *path, double metalness, const char *more, bool light) {
+    static float places[POINTS][3], normals[POINTS][3];
+    static uint16_t indices[TRIANGLES][3];
+    const double pi = acos(-1);
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    gn_maker_init(&maker);
+    for (int i = 0; i < POINTS; i++) {
+        const double down = pi * (i / (AROUND + 1)) / DOWN,
+                     around = 2 * pi * (i % (AROUND + 1)) / AROUND;
+        normals[i][0] = (float)(sin(down) * cos(around));
+        normals[i][1] = (float)cos(down);
+        normals[i][2] = (float)(sin(down) * sin(around));
+        for (int k = 0; k < 3; k++) places[i][k] = 0.45f * normals[i][k];
+    }
+    for (int i = 0; i < AROUND * DOWN; i++) {
+        const int a = i / AROUND * (AROUND + 1) + i % AROUND, b = a + AROUND + 1;
+        const int six[6] = {a, a + 1, b, b, a + 1, b + 1};
+        for (int k = 0; k < 6; k++) indices[2 * i + k / 3][k % 3] = (uint16_t)six[k];
+    }
+    gn_maker_accessor(&maker, "VEC3", 5126, POINTS, places, sizeof places,
+                      "'min':[-0.45,-0.45,-0.45],'max':[0.45,0.45,0.45]");
+    gn_maker_accessor(&maker, "VEC3", 5126, POINTS, normals, sizeof normals, NULL);
+    gn_maker_accessor(&maker, "SCALAR", 5123, 3 * TRIANGLES, indices, sizeof indices, NULL);
+    char text[400], nodes[200] = "";
+    for (int i = 0; i < ROUGHNESSES; i++) {
+        snprintf(text, sizeof text,
+                 "{%s'pbrMetallicRoughness':{'metallicFactor':%g,'roughnessFactor':%g}}", more,
+                 metalness, i / (ROUGHNESSES - 1.0));
+        gn_maker_add(&maker, "materials", text);
+        snprintf(text, sizeof text,
+                 "{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1},'indices':2,"
+                 "'material':%d}]}",
+                 i);
+        gn_maker_add(&maker, "meshes", text);
+        snprintf(text, sizeof text, "{'mesh':%d,'translation':[%d,0,0]}", i, i - ROUGHNESSES / 2);
+        gn_maker_add(&maker, "nodes", text);
+        snprintf(nodes + strlen(nodes), sizeof nodes - strlen(nodes), "%d,", i);
+    }
+    gn_maker_add(
+        &maker, "cameras",
+        "{'type':'orthographic','orthographic':{'xmag':5,'ymag':1.25,'znear':1,'zfar':9}}");
+    gn_maker_add(&maker, "nodes", "{'camera':0,'translation':[0,0,5]}");
+    if (light) {
+        gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
+        gn_maker_set(&maker, "extensions",
+                     "{'KHR_lights_punctual':{'lights':[{'type':'directional','intensity':1}]}}");
+        gn_maker_add(&maker, "nodes", "{'extensions':{'KHR_lights_punctual':{'light':0}}}");
+    }
+    snprintf(text, sizeof text, "{'nodes':[%s%d%s]}", nodes, ROUGHNESSES, light ? ",10" : "");
+    gn_maker_add(&maker, "scenes", text);
+    gn_maker_set(&maker, "scene", "0");
+    if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
+}
+
+static void write_uniform(const char *path, uint8_t exponent) {
+    FILE *file = fopen(path, "wb");
+    fputs("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n", file);
+    for (int i = 0; i < 8; i++) fwrite((uint8_t[]){128, 128, 128, exponent}, 4, 1, file);
+    fclose(file);
+}
+
+static struct gn_picture draw(const char *scene, const char *environment, const char *more,
+                              const char *value) {
+    struct gn_err err = {0};
+    struct gn_picture picture;
+    const char *const args[] = {"--environment", environment, "--output", "linear", "--size",
+                                "480x120",       more,        value,      NULL};
+    if (!gn_shot(&picture, NULL, &err, "pfm", scene, args)) fail_msg("%s", err.text);
+    return picture;
+}
+
+/* Of the pixels of sphere i that are wholly inside its outline. */
+static void range_of(const struct gn_picture *picture, int i, float range[2]) {
+    const int x0 = WIDTH / 2 + (i - ROUGHNESSES / 2) * WIDTH / 10, y0 = HEIGHT / 2, r = 20;
+    range[0] = INFINITY, range[1] = -INFINITY;
+    for (int y = -r; y <= r; y++)
+        for (int x = -r; x <= r; x++) {
+            if (x * x + y * y > r * r) continue;
+            const float *p = gn_picture_at(picture, x0 + x, y0 + y);
+            for (int k = 0; k < 3; k++) {
+                range[0] = fminf(range[0], p[k]);
+                range[1] = fmaxf(range[1], p[k]);
+            }
+        }
+}
+
+static void check_uniform(const struct gn_picture *picture, float wanted, const char *what) {
+    for (int i = 0; i < ROUGHNESSES; i++) {
+        float range[2];
+        range_of(picture, i, range);
+        if (range[0] < 0.97f * wanted || range[1] > 1.001f * wanted)
+            fail_msg("%s, roughness %.3f: %.4f to %.4f instead of %.2f", what,
+                     i / (ROUGHNESSES - 1.0), range[0], range[1], wanted);
+    }
+}
+
+static void test_white_spheres_lose_nothing_in_uniform_light(void **state) {
+    (void)state;
+    static const char *const what[3] = {"white", "metal", "double sided"};
+    for (int s = 0; s < 3; s++) {
+        struct gn_picture picture = draw(scenes[s], uniform, "--environment-turn", "0");
+        check_uniform(&picture, 1.0f, what[s]);
+        gn_picture_finish(&picture);
+    }
+}
+
+static void test_strength_and_exposure_are_factors(void **state) {
+    (void)state;
+    struct gn_picture picture = draw(scenes[1], uniform, "--environment-strength", "0.25");
+    check_uniform(&picture, 0.25f, "strength 1/4");
+    gn_picture_finish(&picture);
+    picture = draw(scenes[0], half, "--exposure", "-1");
+    check_uniform(&picture, 0.25f, "half of 1/2");
+    gn_picture_finish(&picture);
+}
+
+/* The studio is not symmetric; a turn of 360 degrees is none, one of 90 is another picture. */
+static void test_the_environment_turns(void **state) {
+    (void)state;
+    struct gn_picture none = draw(scenes[1], "studio", "--environment-turn", "0"),
+                      whole = draw(scenes[1], "studio", "--environment-turn", "360"),
+                      quarter = draw(scenes[1], "studio", "--environment-turn", "90");
+    double differs[2] = {0};
+    for (int i = 0; i < WIDTH * HEIGHT * 3; i++) {
+        differs[0] += fabsf(none.data[i] - whole.data[i]);
+        differs[1] += fabsf(none.data[i] - quarter.data[i]);
+    }
+    assert_true(differs[0] < 1e-3 * differs[1] && differs[1] > 100);
+    gn_picture_finish(&none);
+    gn_picture_finish(&whole);
+    gn_picture_finish(&quarter);
+}
+
+/* ---- what is kept ---- */
+
+static int list_kept(char path[700]) {
+    char cache[560];
+    int count = 0;
+    snprintf(cache, sizeof cache, "%s/gnomon", folder);
+    DIR *dir = opendir(cache);
+    for (struct dirent *entry; dir && (entry = readdir(dir));) {
+        if (entry->d_name[0] == '.') continue;
+        snprintf(path, 700, "%s/%s", cache, entry->d_name);
+        count++;
+    }
+    if (dir) closedir(dir);
+    return count;
+}
+
+static void forget_kept(void) {
+    char path[700];
+    while (list_kept(path) > 0)
+        if (unlink(path) < 0) fail_msg("%s", path);
+}
+
+static void test_a_file_is_kept_and_a_broken_one_is_renewed(void **state) {
+    (void)state;
+    char path[700];
+    struct stat info;
+    forget_kept();
+    struct gn_picture picture = draw(scenes[1], uniform, NULL, NULL);
+    gn_picture_finish(&picture);
+    assert_int_equal(list_kept(path), 1);
+    assert_true(stat(path, &info) == 0 && info.st_size == GN_ENVIRONMENT_FILE_BYTES);
+    for (int cut = 0; cut < 2; cut++) {
+        FILE *file = fopen(path, "r+b");
+        fseek(file, 5000, SEEK_SET);
+        fputs("something else", file);
+        fclose(file);
+        if (cut) assert_int_equal(truncate(path, 100), 0);
+        picture = draw(scenes[1], uniform, NULL, NULL);
+        check_uniform(&picture, 1.0f, "beside a broken file");
+        gn_picture_finish(&picture);
+        assert_true(stat(path, &info) == 0 && info.st_size == GN_ENVIRONMENT_FILE_BYTES);
+    }
+}
+
+static void test_kept_files_are_used_and_few(void **state) {
+    (void)state;
+    char path[700], more[640];
+    forget_kept();
+    /* what is kept of the one in the place of the other shows that it is read */
+    struct gn_picture picture = draw(scenes[1], uniform, NULL, NULL);
+    gn_picture_finish(&picture);
+    assert_int_equal(list_kept(path), 1);
+    char first[700];
+    memcpy(first, path, sizeof first);
+    snprintf(more, sizeof more, "%s/aside", folder);
+    assert_int_equal(rename(first, more), 0);
+    picture = draw(scenes[1], half, NULL, NULL);
+    gn_picture_finish(&picture);
+    assert_int_equal(list_kept(path), 1);
+    assert_int_equal(rename(path, first), 0);
+    picture = draw(scenes[1], uniform, NULL, NULL);
+    check_uniform(&picture, 0.5f, "kept");
+    gn_picture_finish(&picture);
+    unlink(more);
+    if (!gn_shot_full()) return;
+    for (int i = 0; i < 18; i++) {
+        snprintf(more, sizeof more, "%s/%d.hdr", folder, i);
+        write_uniform(more, (uint8_t)(100 + i));
+        picture = draw(scenes[1], more, NULL, NULL);
+        gn_picture_finish(&picture);
+        unlink(more);
+    }
+    assert_int_equal(list_kept(path), 16);
+}
+
+static void test_a_bad_file_is_one_line(void **state) {
+    (void)state;
+    char bad[640], out[640];
+    struct gn_run run;
+    struct gn_err err = {0};
+    snprintf(bad, sizeof bad, "%s/bad.hdr", folder);
+    snprintf(out, sizeof out, "%s/bad.png", folder);
+    FILE *file = fopen(bad, "wb");
+    fputs("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\nshort", file);
+    fclose(file);
+    const char *const argv[] = {
+        gn_shot_program(), "render", scenes[0], "--environment", bad, "-o", out, NULL};
+    if (!gn_run(&run, argv, 0, &err)) fail_msg("%s", err.text);
+    assert_int_equal(run.status, 1);
+    if (!strstr(run.err, "bad.hdr: HDR: truncated in row 0\n") ||
+        strchr(run.err, '\n') != run.err + strlen(run.err) - 1)
+        fail_msg("\"%s\"", run.err);
+}
+
+static int set_up(void **state) {
+    (void)state;
+    char build[PATH_MAX]; /* whole: relative folders for caches are ignored */
+    if (!realpath(gn_shot_build(), build)) return 1;
+    snprintf(folder, sizeof folder, "%.400s/furnace.%d", build, (int)getpid());
+    mkdir(folder, 0700);
+    setenv("XDG_CACHE_HOME", folder, 1);
+    for (int i = 0; i < 3; i++) snprintf(scenes[i], sizeof scenes[i], "%s/%d.glb", folder, i);
+    snprintf(uniform, sizeof uniform, "%s/uniform.hdr", folder);
+    snprintf(half, sizeof half, "%s/half.hdr", folder);
+    write_spheres(scenes[0], 0, "", false);
+    write_spheres(scenes[1], 1, "", false);
+    write_spheres(scenes[2], 0, "'doubleSided':true,", false);
+    write_uniform(uniform, 129);
+    write_uniform(half, 128);
+    return 0;
+}
+
+static int tear_down(void **state) {
+    (void)state;
+    char command[600];
+    snprintf(command, sizeof command, "rm -r %s", folder);
+    return system(command) != 0; /* NOLINT: a path of our own */
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_white_spheres_lose_nothing_in_uniform_light),
+        cmocka_unit_test(test_strength_and_exposure_are_factors),
+        cmocka_unit_test(test_the_environment_turns),
+        cmocka_unit_test(test_a_file_is_kept_and_a_broken_one_is_renewed),
+        cmocka_unit_test(test_kept_files_are_used_and_few),
+        cmocka_unit_test(test_a_bad_file_is_one_line),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}

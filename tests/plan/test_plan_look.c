@@ -1,0 +1,72 @@
+/* Plans of how a picture is shown: its tone, and what is blended. */
+#include "plan/fixture.h"
+#include "unit/check.h"
+
+/* What is added has no tone of its own: the last pass maps the sum. */
+static void test_tone_of_many_lights_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[13];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    gn_plan_add_lights(&f, lights);
+    f.opts.tone = GN_TONE_NEUTRAL;
+    gn_plan_expect(gn_plan_make(&f), "tone");
+    gn_plan_end(&f);
+}
+
+static bool maps_tone(const struct gn_plan *plan, enum gn_program_kind kind) {
+    const uint64_t any = GN_FEATURE(TONE_NEUTRAL) | GN_FEATURE(TONE_ACES) | GN_FEATURE(TONE_AGX);
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        if (plan->programs[i].kind == kind && plan->programs[i].features & any) return true;
+    return false;
+}
+
+static void test_a_tone_is_for_pictures_that_are_looked_at(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.tone = GN_TONE_AGX;
+    assert_true(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
+    f.opts.output_linear = true;
+    assert_false(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
+    f.opts.output_linear = false;
+    f.opts.output_float = true;
+    assert_false(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
+    f.opts.output_float = false;
+    f.opts.tone = GN_TONE_AUTO;
+    assert_int_equal(gn_plan_make(&f)->tone, GN_TONE_NONE); /* it has lights of its own */
+    f.scene->added.light = true;
+    assert_int_equal(gn_plan_make(&f)->tone, GN_TONE_NEUTRAL);
+    for (int aov = GN_AOV_COLOR + 1; aov < GN_AOV_COUNT; aov++) {
+        f.opts.debug.aov = (enum gn_aov)aov;
+        assert_int_equal(gn_plan_make(&f)->tone, GN_TONE_NONE);
+    }
+    gn_plan_end(&f);
+}
+
+/* Opaque texels first, as of a masked item, then the rest: back faces, front faces. */
+static void test_blended_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    for (uint32_t i = 0; i < f.scene->material_count; i++) {
+        struct gn_material *m = &f.scene->materials[i];
+        if (m->alpha != GN_ALPHA_BLEND) continue;
+        m->base_color[3] = 1.0f;
+        m->double_sided = true;
+    }
+    for (uint32_t i = 0; i < f.scene->item_count; i++)
+        if (f.scene->materials[f.scene->items[i].material].alpha == GN_ALPHA_BLEND)
+            f.scene->geometries[f.scene->items[i].geometry].flat = false;
+    gn_plan_expect(gn_plan_make(&f), "blended");
+    gn_plan_end(&f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_tone_of_many_lights_plan),
+        cmocka_unit_test(test_a_tone_is_for_pictures_that_are_looked_at),
+        cmocka_unit_test(test_blended_plan),
+    };
+    return RUN(tests);
+}

@@ -1,0 +1,220 @@
+/* Extensions of materials: what they become, and what is named as missing. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "unit/scene_help.h"
+
+static int setup_with_material(void **state) {
+    setup(state);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
+    return 0;
+}
+
+static struct gn_scene *load_material(const char *material) {
+    char json[600];
+    setup_with_material(NULL);
+    snprintf(json, sizeof json, "[{%s}]", material);
+    gn_maker_set(&maker, "materials", json);
+    return load();
+}
+
+static void assert_f0(const char *material, float r, float g, float b) {
+    struct gn_scene *scene = load_material(material);
+    const float wanted[] = {r, g, b};
+    for (int k = 0; k < 3; k++) assert_near(scene->materials[0].f0[k], wanted[k]);
+    assert_int_equal(gn_material_has_f0(&scene->materials[0]),
+                     r != GN_F0 || g != GN_F0 || b != GN_F0);
+    gn_scene_destroy(scene);
+}
+
+#define EXTENSIONS(text) "'extensions':{" text "}"
+
+static void test_reflectance(void **state) {
+    (void)state;
+    assert_f0("", .04f, .04f, .04f);
+    assert_f0(EXTENSIONS("'KHR_materials_ior':{}"), .04f, .04f, .04f);
+    assert_f0(EXTENSIONS("'KHR_materials_ior':{'ior':1.5}"), .04f, .04f, .04f);
+    assert_f0(EXTENSIONS("'KHR_materials_ior':{'ior':2}"), 1.0f / 9, 1.0f / 9, 1.0f / 9);
+    assert_f0(EXTENSIONS("'KHR_materials_ior':{'ior':1}"), 0, 0, 0);
+    assert_f0(EXTENSIONS("'KHR_materials_ior':{'ior':0}"), 1, 1, 1);
+    assert_f0(EXTENSIONS("'KHR_materials_specular':{'specularFactor':0.5}"), .02f, .02f, .02f);
+    assert_f0(EXTENSIONS("'KHR_materials_specular':{'specularColorFactor':[1,0.5,100]}"), .04f,
+              .02f, 1);
+    assert_f0(EXTENSIONS("'KHR_materials_specular':{'specularFactor':0.5,'specularColorFactor':"
+                         "[100,1,1]},'KHR_materials_ior':{'ior':2}"),
+              .5f, .5f / 9, .5f / 9); /* cut to 1 before the factor */
+    assert_f0(EXTENSIONS("'KHR_materials_specular':{'specularFactor':-3}"), 0, 0, 0);
+    assert_f0(EXTENSIONS("'KHR_materials_ior':{'ior':1e30}"), .99960f, .99960f, .99960f);
+}
+
+static void test_without_reflectance_there_is_no_highlight(void **state) {
+    (void)state;
+    struct gn_scene *scene = load_material(
+        "'pbrMetallicRoughness':{'roughnessFactor':0.2,'metallicFactor':0}," EXTENSIONS(
+            "'KHR_materials_specular':{'specularFactor':0}"));
+    assert_false(gn_material_is_specular(&scene->materials[0]));
+    gn_scene_destroy(scene);
+}
+
+static void test_specular_glossiness(void **state) {
+    (void)state;
+    struct gn_scene *scene = load_material(
+        EXTENSIONS("'KHR_materials_pbrSpecularGlossiness':{'diffuseFactor':[0.5,1,0.25,0.75],"
+                   "'specularFactor':[0.2,0.1,0],'glossinessFactor':0.7}"));
+    const struct gn_material *m = &scene->materials[0];
+    assert_int_equal(warnings.count, 0);
+    assert_near(m->base_color[0], .4f); /* what is reflected is not diffuse */
+    assert_near(m->base_color[1], .8f);
+    assert_near(m->base_color[2], .2f);
+    assert_near(m->base_color[3], .75f);
+    assert_near(m->f0[0], .2f);
+    assert_near(m->f0[1], .1f);
+    assert_near(m->f0[2], 0);
+    assert_near(m->roughness, .3f);
+    assert_near(m->metalness, 0);
+    gn_scene_destroy(scene);
+}
+
+static void test_what_is_missing_is_named(void **state) {
+    (void)state;
+    struct gn_scene *scene = load_material(
+        EXTENSIONS("'KHR_materials_sheen':{},'KHR_materials_volume':{},'KHR_materials_clearcoat':"
+                   "{},'EXT_unknown':{},'KHR_materials_specular':{'specularTexture':{'index':0}}"));
+    assert_string_equal(scene->missing,
+                        "clear coat, volume, sheen, textures of KHR_materials_specular");
+    assert_int_equal(warnings.count, 1);
+    assert_string_equal(warnings.text[0], "t: shown without clear coat, volume, sheen, textures of "
+                                          "KHR_materials_specular: not supported yet");
+    gn_scene_destroy(scene);
+    scene = load_material("");
+    assert_string_equal(scene->missing, "");
+    gn_scene_destroy(scene);
+}
+
+static void test_materials_that_nothing_shows_miss_nothing(void **state) {
+    (void)state;
+    setup_with_material(NULL);
+    gn_maker_set(&maker, "materials", "[{},{'extensions':{'KHR_materials_sheen':{}}}]");
+    struct gn_scene *scene = load();
+    assert_string_equal(scene->missing, "");
+    assert_int_equal(warnings.count, 0);
+    gn_scene_destroy(scene);
+}
+
+static void refuse(const char *material, const char *message) {
+    char json[600];
+    setup_with_material(NULL);
+    snprintf(json, sizeof json, "[{%s}]", material);
+    gn_maker_set(&maker, "materials", json);
+    assert_null(gn_maker_load(&maker, NULL, &err));
+    assert_string_equal(err.text, message);
+}
+
+static void test_wrong_types_are_refused(void **state) {
+    (void)state;
+    refuse(EXTENSIONS("'KHR_materials_ior':{'ior':'glass'}"),
+           "t: materials[0].extensions.KHR_materials_ior.ior: must be a number, is a string");
+    refuse(EXTENSIONS("'KHR_materials_specular':{'specularColorFactor':[1,1]}"),
+           "t: materials[0].extensions.KHR_materials_specular.specularColorFactor: must have 3 "
+           "numbers, has 2");
+    refuse(EXTENSIONS("'KHR_materials_pbrSpecularGlossiness':{'diffuseTexture':{'index':7}}"),
+           "t: materials[0].extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture.index: "
+           "index 7, but there are 0 textures");
+}
+
+static void add_textures(void) {
+    static const uint8_t red[] = {255, 0, 0, 255};
+    char json[80];
+    struct gn_made png = gn_maker_png(1, 1, red);
+    snprintf(json, sizeof json, "[{'bufferView':%d}]", gn_maker_view(&maker, png.data, png.size));
+    free(png.data);
+    gn_maker_set(&maker, "images", json);
+    gn_maker_set(&maker, "textures", "[{'source':0},{'source':0}]");
+}
+
+static const struct gn_texture_ref *lightmap_of(const struct gn_scene *scene) {
+    return &scene->materials[0].textures[GN_TEXTURE_LIGHTMAP];
+}
+
+static struct gn_scene *load_textured(const char *material) {
+    char json[600];
+    setup_with_material(NULL);
+    add_textures();
+    snprintf(json, sizeof json, "[{%s}]", material);
+    gn_maker_set(&maker, "materials", json);
+    return load();
+}
+
+static void test_light_maps(void **state) {
+    (void)state;
+    struct gn_scene *scene =
+        load_textured(EXTENSIONS("'MOZ_lightmap':{'index':1,'texCoord':1,'intensity':2.5}"));
+    assert_int_equal(lightmap_of(scene)->texture, 0); /* the scene's number */
+    assert_int_equal(lightmap_of(scene)->uv_set, 1);
+    assert_near(scene->materials[0].lightmap_intensity, 2.5f);
+    assert_int_equal(warnings.count, 0);
+    gn_scene_destroy(scene);
+    scene = load_textured("'extras':{'gnomon_lightmap':1,'gnomon_lightmap_intensity':3}");
+    assert_true(lightmap_of(scene)->texture >= 0);
+    assert_int_equal(lightmap_of(scene)->uv_set, 1);
+    assert_near(scene->materials[0].lightmap_intensity, 3);
+    gn_scene_destroy(scene);
+    scene = load_textured("'extras':{'gnomon_lightmap':2}");
+    assert_int_equal(lightmap_of(scene)->texture, -1);
+    assert_int_equal(warnings.count, 1);
+    gn_scene_destroy(scene);
+}
+
+static void test_sets_beyond_the_first_two(void **state) {
+    (void)state;
+    static const float uv[8] = {0, 0, 5, 0, 5, 5, 0, 5}, other[8] = {0, 0, 7, 0, 7, 7, 0, 7};
+    setup_with_material(NULL);
+    add_textures();
+    gn_maker_accessor(&maker, "VEC2", 5126, 4, uv, sizeof uv, NULL);
+    gn_maker_accessor(&maker, "VEC2", 5126, 4, other, sizeof other, NULL);
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':2}},"
+                 "'normalTexture':{'index':1,'texCoord':7}}]");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_2':2,'TEXCOORD_7':3},"
+                 "'indices':1,'material':0}]}]");
+    struct gn_scene *scene = load();
+    assert_int_equal(warnings.count, 0);
+    assert_int_equal(scene->materials[0].textures[GN_TEXTURE_BASE].uv_set, 0);
+    assert_int_equal(scene->materials[0].textures[GN_TEXTURE_NORMAL].uv_set, 1);
+    assert_near(scene->buffers.uv0[2 * scene->buffers.indices[2] + 1], 5);
+    assert_near(scene->buffers.uv1[2 * scene->buffers.indices[2] + 1], 7);
+    assert_true(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_TANGENT));
+    gn_scene_destroy(scene);
+}
+
+static void test_materials_of_other_reflectance_share_no_call(void **state) {
+    (void)state;
+    setup_with_material(NULL);
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'roughnessFactor':0.2,'metallicFactor':0}},"
+                 "{'pbrMetallicRoughness':{'roughnessFactor':0.2,'metallicFactor':0},"
+                 "'extensions':{'KHR_materials_ior':{'ior':1.8}}}]");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0},"
+                 "{'attributes':{'POSITION':0},'indices':1,'material':1}]}]");
+    struct gn_scene *scene = load();
+    assert_int_equal(scene->items[1].batch, 1);
+    gn_scene_destroy(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reflectance),
+        cmocka_unit_test(test_without_reflectance_there_is_no_highlight),
+        cmocka_unit_test(test_specular_glossiness),
+        cmocka_unit_test(test_what_is_missing_is_named),
+        cmocka_unit_test(test_materials_that_nothing_shows_miss_nothing),
+        cmocka_unit_test(test_wrong_types_are_refused),
+        cmocka_unit_test(test_light_maps),
+        cmocka_unit_test(test_sets_beyond_the_first_two),
+        cmocka_unit_test(test_materials_of_other_reflectance_share_no_call),
+    };
+    return RUN(tests);
+}
