@@ -104,6 +104,8 @@ MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || ec
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
 PKGS    += $(shell $(PKG) --exists freetype2 2> /dev/null && echo freetype2)
+# pictures of textures in WebP
+PKGS    += $(shell $(PKG) --exists libwebp 2> /dev/null && echo libwebp)
 # gnomon-import is a program of its own, for those who have assimp
 IMPORT_C := $(if $(shell $(PKG) --exists assimp 2> /dev/null && echo y),$(sort $(wildcard src/import/*.c)))
 
@@ -137,6 +139,7 @@ COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 # ---- what there is to build ----------------------------------------------------------------
 # x.c needs the package x and x_none.c stands in for it: the list of such pairs
 OPTIONAL := src/display/osmesa:osmesa src/display/window/window:glfw3 src/caption/font_file:freetype2 \
+            src/image/webp_read:libwebp \
             src/core/syscall_filter:libseccomp
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\

@@ -1,4 +1,4 @@
-/* Reading PNG, JPEG and Radiance pictures from memory. Messages begin with the name of the format.
+/* Reading PNG, JPEG, WebP and Radiance pictures from memory. Messages begin with the name of the format.
  */
 #ifndef GN_IMAGE_READ_H
 #define GN_IMAGE_READ_H
@@ -20,6 +20,11 @@ bool gn_png_read_16(const uint8_t *data, size_t size, const uint32_t px[2], uint
 bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
 bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
                   struct gn_err *err);
+/* Lossy and lossless, no animations; false everywhere in a build without libwebp. */
+bool gn_webp_is_read(void);
+bool gn_webp_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
+bool gn_webp_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
+                  struct gn_err *err);
 
 /* Radiance (.hdr): rows from the top, each of width x 4 bytes of RGBE, valid during the call. At
  * most 33554432 pixels. EXPOSURE= is ignored, as viewers do. */
@@ -33,5 +38,6 @@ void gn_hdr_color(const uint8_t rgbe[4], float rgb[3]);
 /* Bytes that reading takes beside the pixels, of a file of which the size was read. */
 uint64_t gn_png_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]);
 uint64_t gn_jpeg_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]);
+uint64_t gn_webp_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]);
 
 #endif

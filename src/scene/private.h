@@ -50,7 +50,6 @@ struct gn_accessor {
     X(SKINS, "skins", NULL)                                                                        \
     X(MORPHS, "morph targets", NULL)                                                               \
     X(VARIANTS, "material variants", NULL)                                                         \
-    X(WEBP, "WebP pictures", NULL)                                                                 \
     X(BASISU, "KTX2 pictures", NULL)                                                               \
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
     X(POINTERS, "animation pointers", NULL)                                                        \

@@ -4,7 +4,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "unit/webp_bytes.h"
+
 /* ---- ingredients ---- */
+
+static void add_picture(struct gn_maker *m, const char *type, const void *data, size_t size) {
+    char json[100];
+    snprintf(json, sizeof json, "{'bufferView':%d,'mimeType':'image/%s'}",
+             gn_maker_view(m, data, size), type);
+    const int image = gn_maker_add(m, "images", json);
+    snprintf(json, sizeof json, "{'source':%d,'sampler':0}", image);
+    gn_maker_add(m, "textures", json);
+}
 
 static void add_pictures(struct gn_maker *m) {
     static const uint8_t rgba[] = {255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 9, 9, 9, 255};
@@ -13,14 +24,11 @@ static void add_pictures(struct gn_maker *m) {
     struct gn_made pictures[] = {gn_maker_png(2, 2, rgba), gn_maker_png_grey16(2, 2, grey),
                                  gn_maker_jpeg(8, 8, rgb)};
     for (size_t i = 0; i < 3; i++) {
-        char json[100];
-        snprintf(json, sizeof json, "{'bufferView':%d,'mimeType':'image/%s'}",
-                 gn_maker_view(m, pictures[i].data, pictures[i].size), i < 2 ? "png" : "jpeg");
-        gn_maker_add(m, "images", json);
-        snprintf(json, sizeof json, "{'source':%zu,'sampler':0}", i);
-        gn_maker_add(m, "textures", json);
+        add_picture(m, i < 2 ? "png" : "jpeg", pictures[i].data, pictures[i].size);
         free(pictures[i].data);
     }
+    add_picture(m, "webp", gn_webp_lossless, sizeof gn_webp_lossless);
+    add_picture(m, "webp", gn_webp_lossy, sizeof gn_webp_lossy);
     gn_maker_add(m, "samplers", "{'magFilter':9728,'minFilter':9985,'wrapS':33071,'wrapT':33648}");
 }
 
@@ -37,8 +45,10 @@ static void add_materials(struct gn_maker *m) {
         "'pbrMetallicRoughness':{'baseColorFactor':[1,1,1,0.5],'metallicFactor':0.1,'"
         "roughnessFactor':0.4,"
         "'baseColorTexture':{'index':0,'extensions':{'KHR_texture_transform':{'offset':[0.1,0.2],"
-        "'rotation':0.3,'scale':[2,3]}}},'metallicRoughnessTexture':{'index':1}}}");
-    gn_maker_add(m, "materials", "{'alphaMode':'BLEND','extensions':{'KHR_materials_unlit':{}}}");
+        "'rotation':0.3,'scale':[2,3]}}},'metallicRoughnessTexture':{'index':3}}}");
+    gn_maker_add(m, "materials",
+                 "{'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorTexture':{'index':4}},"
+                 "'extensions':{'KHR_materials_unlit':{}}}");
 }
 
 /* A mesh of one textured square with normals, two UV sets and colours of three kinds. */

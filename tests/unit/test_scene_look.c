@@ -4,7 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/read.h"
 #include "unit/scene_help.h"
+#include "unit/webp_bytes.h"
 
 static int setup_with_material(void **state) {
     setup(state);
@@ -142,6 +144,37 @@ static void test_jpeg(void **state) {
     gn_scene_destroy(scene);
 }
 
+static void test_webp(void **state) {
+    (void)state;
+    if (!gn_webp_is_read()) skip();
+    add_picture(gn_webp_lossless, sizeof gn_webp_lossless);
+    gn_maker_add(&maker, "images", "{'uri':'a copy as PNG, which is not read.png'}");
+    gn_maker_set(&maker, "textures",
+                 "[{'source':1,'extensions':{'EXT_texture_webp':{'source':0}}}]");
+    gn_maker_set(&maker, "extensionsRequired", "['EXT_texture_webp']");
+    gn_maker_set(&maker, "materials", BASE_TEXTURE);
+    struct gn_scene *scene = load();
+    assert_int_equal(warnings.count, 0);
+    const uint8_t expected[16] = {255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 64, 9, 8, 7, 255};
+    assert_int_equal(scene->pictures.images[0].width_px, 2);
+    assert_memory_equal(scene->pictures.images[0].rgba, expected, sizeof expected);
+    gn_scene_destroy(scene);
+}
+
+static void test_lossy_webp_with_alpha(void **state) {
+    (void)state;
+    if (!gn_webp_is_read()) skip();
+    add_picture(gn_webp_lossy, sizeof gn_webp_lossy);
+    gn_maker_set(&maker, "materials", BASE_TEXTURE);
+    struct gn_scene *scene = load();
+    const uint8_t *rgba = scene->pictures.images[0].rgba;
+    assert_true(abs(rgba[0] - 200) < 6 && abs(rgba[1] - 40) < 6 && abs(rgba[2] - 60) < 6);
+    assert_int_equal(rgba[4 * 7 + 3], 255);
+    assert_int_equal(rgba[4 * 8 + 3], 0);
+    assert_true(scene->pictures.images[0].has_alpha);
+    gn_scene_destroy(scene);
+}
+
 static void expect_dropped(const void *data, size_t size, const char *why) {
     setup_with_material(NULL);
     add_picture(data, size);
@@ -161,7 +194,10 @@ static void test_broken_pictures_cost_a_warning(void **state) {
     uint8_t rgba[64 * 64 * 4];
     for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)(i * 2654435761U >> 24);
     struct gn_made png = gn_maker_png(64, 64, rgba);
-    expect_dropped("GIF89a", 6, "neither PNG nor JPEG");
+    expect_dropped("GIF89a", 6, "neither PNG, JPEG nor WebP");
+    expect_dropped("RIFF\x10\0\0\0WAVEfmt ", 16, "neither PNG, JPEG nor WebP");
+    expect_dropped(gn_webp_lossless, 11, "neither PNG, JPEG nor WebP");
+    expect_dropped(gn_webp_lossless, sizeof gn_webp_lossless - 9, "WebP");
     expect_dropped(png.data, 20, "PNG: truncated");
     expect_dropped(png.data, png.size / 2, "PNG: truncated");
     uint8_t claims[80]; /* a chunk of 2 GB before the pixels */
@@ -296,14 +332,14 @@ static void test_missing_picture_file(void **state) {
 
 static void test_later_work_is_named_once(void **state) {
     (void)state;
-    gn_maker_set(&maker, "textures", "[{'extensions':{'EXT_texture_webp':{'source':0}}}]");
+    gn_maker_set(&maker, "textures", "[{'extensions':{'KHR_texture_basisu':{'source':0}}}]");
     gn_maker_set(&maker, "materials",
                  "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]");
     gn_maker_set(&maker, "nodes", "[{'mesh':0,'skin':0}]");
     struct gn_scene *scene = load();
     assert_int_equal(warnings.count, 1);
     assert_string_equal(warnings.text[0],
-                        "t: shown without skins, WebP pictures: not supported yet");
+                        "t: shown without skins, KTX2 pictures: not supported yet");
     gn_scene_destroy(scene);
 }
 
@@ -349,6 +385,8 @@ int main(void) {
         cmocka_unit_test_setup(test_png_rgba, setup_with_material),
         cmocka_unit_test_setup(test_png_of_16_bits, setup_with_material),
         cmocka_unit_test_setup(test_jpeg, setup_with_material),
+        cmocka_unit_test_setup(test_webp, setup_with_material),
+        cmocka_unit_test_setup(test_lossy_webp_with_alpha, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup_with_material),
         cmocka_unit_test_setup(test_textures_are_within_gpu_mb, setup_with_material),

@@ -102,6 +102,7 @@ static const char *const SUPPORTED[] = {
     "KHR_texture_transform",  "EXT_mesh_gpu_instancing",
     "MOZ_lightmap",           "KHR_materials_ior",
     "KHR_materials_specular", "KHR_materials_pbrSpecularGlossiness",
+    "EXT_texture_webp",
 };
 
 static const struct cure {
@@ -111,7 +112,6 @@ static const struct cure {
     {"EXT_meshopt_compression", "decompress it first (gltf-transform can)"},
     {"KHR_meshopt_compression", "decompress it first (gltf-transform can)"},
     {"KHR_texture_basisu", "export it with PNG or JPEG pictures"},
-    {"EXT_texture_webp", "export it with PNG or JPEG pictures"},
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 

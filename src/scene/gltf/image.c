@@ -12,23 +12,30 @@
 enum { UNSEEN = -1, DROPPED = -2 };
 
 static const struct format {
-    const char *magic;
+    const char *magic, *form; /* first bytes, and those from byte 8 on */
     size_t magic_size;
     bool (*size)(const uint8_t *, size_t, uint32_t[2], struct gn_err *);
     uint64_t (*work_bytes)(const uint8_t *, size_t, const uint32_t[2]);
     bool (*read)(const uint8_t *, size_t, const uint32_t[2], uint8_t *, struct gn_err *);
 } FORMATS[] = {
-    {"\x89PNG\r\n\x1a\n", 8, gn_png_size, gn_png_work_bytes, gn_png_read},
-    {"\xff\xd8\xff", 3, gn_jpeg_size, gn_jpeg_work_bytes, gn_jpeg_read},
+    {"\x89PNG\r\n\x1a\n", "", 8, gn_png_size, gn_png_work_bytes, gn_png_read},
+    {"\xff\xd8\xff", "", 3, gn_jpeg_size, gn_jpeg_work_bytes, gn_jpeg_read},
+    {"RIFF", "WEBP", 4, gn_webp_size, gn_webp_work_bytes, gn_webp_read},
 };
+#define OTHER_FORMAT "neither PNG, JPEG nor WebP"
+enum { HEAD_BYTES = 12 }; /* that tell the format */
 
 /* ---- pictures ---- */
 
 static const struct format *format_of(const void *data, size_t size) {
-    for (size_t i = 0; data && i < sizeof FORMATS / sizeof FORMATS[0]; i++)
-        if (size >= FORMATS[i].magic_size &&
-            memcmp(data, FORMATS[i].magic, FORMATS[i].magic_size) == 0)
-            return &FORMATS[i];
+    for (size_t i = 0; data && i < sizeof FORMATS / sizeof FORMATS[0]; i++) {
+        const struct format *f = &FORMATS[i];
+        const size_t form_size = strlen(f->form);
+        if (size >= (form_size > 0 ? 8 + form_size : f->magic_size) &&
+            memcmp(data, f->magic, f->magic_size) == 0 &&
+            memcmp((const char *)data + (form_size > 0 ? 8 : 0), f->form, form_size) == 0)
+            return f;
+    }
     return NULL;
 }
 
@@ -40,7 +47,7 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
                          struct gn_err *err) {
     const struct format *format = format_of(blob->data, blob->size);
     uint32_t px[2] = {0};
-    if (!format) return gn_fail(err, "neither PNG nor JPEG");
+    if (!format) return gn_fail(err, OTHER_FORMAT);
     if (!format->size(blob->data, blob->size, px, err)) return false;
     uint64_t texels = (uint64_t)px[0] * px[1];
     const uint64_t with_mipmaps = 4 * (texels + texels / 3);
@@ -113,14 +120,14 @@ static bool open_source(struct gn_gltf *g, const struct gn_at *at, struct source
 /* A file of gigabytes that is no picture is not read. */
 static bool read_source(struct gn_gltf *g, struct source *source, struct gn_err *err) {
     if (source->fd < 0) return true;
-    uint8_t head[8];
+    uint8_t head[HEAD_BYTES];
     const ssize_t size = pread(source->fd, head, sizeof head, 0);
     const int fd = source->fd;
     source->fd = -1;
     if (size < 0 || format_of(head, (size_t)size))
         return gn_uri_read(g, fd, source->uri, &source->blob, err);
     close(fd);
-    return gn_fail(err, "neither PNG nor JPEG");
+    return gn_fail(err, OTHER_FORMAT);
 }
 
 /* The first image with the same source, or this one. */
@@ -228,12 +235,12 @@ int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
     struct gn_at at = gn_at_item(g, &textures, (size_t)index);
     int32_t sampler = gn_at_ref(g, &at, "sampler", gn_at_size(&samplers), "samplers");
     int32_t source = gn_at_ref(g, &at, "source", g->file.image_count, "images");
-    bool webp = gn_at_extension(g, &at, "extensions.EXT_texture_webp").json != NULL;
+    struct gn_at webp = gn_at_extension(g, &at, "extensions.EXT_texture_webp");
     bool basisu = gn_at_extension(g, &at, "extensions.KHR_texture_basisu").json != NULL;
+    if (webp.json && (gn_webp_is_read() || source < 0))
+        source = gn_at_ref(g, &webp, "source", g->file.image_count, "images");
     if (source < 0 && !g->failed) {
-        if (webp)
-            g->is_missing[GN_MISSING_WEBP] = true;
-        else if (basisu)
+        if (basisu)
             g->is_missing[GN_MISSING_BASISU] = true;
         else
             gn_gltf_warn(g, &at, "has no source; shown without this texture");
