@@ -150,7 +150,10 @@ GPIO_C  := $(if $(filter 1 2,$(GPIOD)),gpiod$(GPIOD).c,gpio_none.c)
 GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
 # gnomon-import alone filters its system calls, and a test
 SECCOMP_LIBS := $(shell $(PKG) --libs libseccomp 2> /dev/null)
-unused  := $(without) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
+# meshes compressed by meshoptimizer; its Debian packages have no .pc
+MESHOPT := $(shell echo '\#include <meshoptimizer.h>' | $(CC) -E -x c - > /dev/null 2>&1 && echo -lmeshoptimizer)
+LIBS    += $(MESHOPT)
+unused  := $(without) src/scene/gltf/$(if $(MESHOPT),meshopt_none.c,meshopt.c) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/import/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
 PROG_C  := $(foreach d,unit plan image fuzz kms angle,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))

@@ -10,8 +10,8 @@ build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
 test_libraries='libcmocka-dev libx11-dev'
 test="clang clang-format clang-tidy groff-base xvfb $test_libraries"
-# for gnomon-import and its sandbox, a window, texts on the picture, textures
-optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev'
+# for gnomon-import and its sandbox, a window, texts on the picture, textures, meshes
+optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libmeshoptimizer-dev'
 optional_run='fonts-dejavu-core' # for those texts
 optional_test='libosmesa6-dev' # not in every Debian
 # fetches libraries for tests/angle, which are for a PC alone; node brings its own where it is not Debian's

@@ -28,6 +28,8 @@ BEGIN {
     foreign["jansson.h"] = "core scene kiosk cli import"
     foreign["png.h"] = "image import"
     foreign["turbojpeg.h"] = "image import"
+    foreign["webp/decode.h"] = "image"
+    foreign["meshoptimizer.h"] = "scene"
     foreign["assimp/"] = "import"
     foreign["cmocka.h"] = "none"
 }

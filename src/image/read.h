@@ -1,4 +1,5 @@
-/* Reading PNG, JPEG, WebP and Radiance pictures from memory. Messages begin with the name of the format.
+/* Reading PNG, JPEG, WebP and Radiance pictures from memory. Messages begin with the name of the
+ * format.
  */
 #ifndef GN_IMAGE_READ_H
 #define GN_IMAGE_READ_H

@@ -219,6 +219,10 @@ bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
 void gn_missing_of_material(struct gn_gltf *g, const struct gn_at *material);
 bool gn_missing_list(struct gn_gltf *g);
 
+/* gltf/compressed.c: where the view is compressed by meshoptimizer, and this build has the decoder,
+ * sets view->data, which else stays NULL. False: the load failed. */
+bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at, struct gn_view *view);
+
 /* uri.c: data: URIs and files in the model's folder or below. err has no path before its
  * text. */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "unit/meshopt_bytes.h"
 #include "unit/webp_bytes.h"
 
 /* ---- ingredients ---- */
@@ -208,13 +209,57 @@ static void seed_instanced(struct gn_maker *m) {
     gn_maker_set(m, "nodes", json);
 }
 
+static const struct compressed {
+    const uint8_t *data;
+    size_t size;
+    const char *view, *how, *accessor;
+} compressed[] = {
+    {gn_meshopt_square, sizeof gn_meshopt_square, "'byteLength':48",
+     "'byteStride':12,'count':4,'mode':'ATTRIBUTES'", "'VEC3','componentType':5126,'count':4"},
+    {gn_meshopt_exponential, sizeof gn_meshopt_exponential, "'byteLength':48",
+     "'byteStride':12,'count':4,'mode':'ATTRIBUTES','filter':'EXPONENTIAL'",
+     "'VEC3','componentType':5126,'count':4"},
+    {gn_meshopt_normals, sizeof gn_meshopt_normals, "'byteLength':16,'byteStride':4",
+     "'byteStride':4,'count':4,'mode':'ATTRIBUTES','filter':'OCTAHEDRAL'",
+     "'VEC3','componentType':5120,'normalized':true,'count':4"},
+    {gn_meshopt_triangles, sizeof gn_meshopt_triangles, "'byteLength':12",
+     "'byteStride':2,'count':6,'mode':'TRIANGLES'", "'SCALAR','componentType':5123,'count':6"},
+    {gn_meshopt_sequence, sizeof gn_meshopt_sequence, "'byteLength':12",
+     "'byteStride':2,'count':6,'mode':'INDICES'", "'SCALAR','componentType':5123,'count':6"},
+};
+
+/* A view of those bytes, and an accessor on it. */
+static void add_compressed(struct gn_maker *m, const struct compressed *c) {
+    const int bytes = gn_maker_view(m, c->data, c->size);
+    json_t *at = json_array_get(json_object_get(m->root, "bufferViews"), (size_t)bytes);
+    char json[300];
+    snprintf(json, sizeof json,
+             "{'buffer':1,%s,'extensions':{'EXT_meshopt_compression':{'buffer':0,"
+             "'byteOffset':%d,'byteLength':%zu,%s}}}",
+             c->view, (int)json_integer_value(json_object_get(at, "byteOffset")), c->size, c->how);
+    const int view = gn_maker_add(m, "bufferViews", json);
+    snprintf(json, sizeof json, "{'bufferView':%d,'type':%s}", view, c->accessor);
+    gn_maker_add(m, "accessors", json);
+}
+
+static void seed_compressed(struct gn_maker *m) {
+    gn_maker_square(m);
+    gn_maker_set(m, "extensionsRequired", "['EXT_meshopt_compression','KHR_mesh_quantization']");
+    gn_maker_add(m, "buffers", "{'byteLength':60}");
+    for (size_t i = 0; i < sizeof compressed / sizeof compressed[0]; i++)
+        add_compressed(m, &compressed[i]);
+    gn_maker_set(m, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':2,'NORMAL':4},'indices':5},"
+                 "{'attributes':{'POSITION':3},'indices':6}]}]");
+}
+
 /* Everything that can stand beside each other, as .gltf with a data URI. */
 static void seed_text(struct gn_maker *m) { seed_rich(m); }
 
 struct gn_made gn_seed_make(int number) {
     static void (*const make[GN_SEED_COUNT])(struct gn_maker *) = {
-        seed_plain,  seed_rich,      seed_lights,    seed_animated,
-        seed_sparse, seed_quantized, seed_instanced, seed_text};
+        seed_plain,     seed_rich,      seed_lights,     seed_animated, seed_sparse,
+        seed_quantized, seed_instanced, seed_compressed, seed_text};
     struct gn_maker maker;
     gn_maker_init(&maker);
     make[number](&maker);

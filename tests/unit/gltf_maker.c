@@ -110,10 +110,16 @@ static void put_u32(uint8_t *out, size_t value) {
     for (int i = 0; i < 4; i++) out[i] = (uint8_t)(value >> (8 * i));
 }
 
+/* Buffers that a test has added stay behind it. */
+static void set_first_buffer(struct gn_maker *maker, json_t *buffer) {
+    json_t *buffers = json_object_get(maker->root, "buffers");
+    if (!buffers) json_object_set_new(maker->root, "buffers", buffers = json_array());
+    json_array_insert_new(buffers, 0, buffer);
+}
+
 struct gn_made gn_maker_glb(struct gn_maker *maker) {
-    char json[80];
-    snprintf(json, sizeof json, "[{'byteLength':%zu}]", maker->size);
-    if (maker->size > 0) gn_maker_set(maker, "buffers", json);
+    if (maker->size > 0)
+        set_first_buffer(maker, json_pack("{s:I}", "byteLength", (json_int_t)maker->size));
     char *text = json_dumps(maker->root, JSON_COMPACT);
     size_t length = strlen(text), padded = (length + 3) / 4 * 4;
     struct gn_made made = {.size = 12 + 8 + padded + (maker->size > 0 ? 8 + maker->size : 0)};
@@ -152,9 +158,8 @@ struct gn_made gn_maker_gltf(struct gn_maker *maker) {
     char *text = base64(maker->bin, maker->size), *uri = gn_xalloc(sizeof head + strlen(text), 1);
     strcpy(stpcpy(uri, head), text);
     if (maker->size > 0)
-        json_object_set_new(
-            maker->root, "buffers",
-            json_pack("[{s:s,s:I}]", "uri", uri, "byteLength", (json_int_t)maker->size));
+        set_first_buffer(maker,
+                         json_pack("{s:s,s:I}", "uri", uri, "byteLength", (json_int_t)maker->size));
     free(text);
     free(uri);
     struct gn_made made = {.data = (uint8_t *)json_dumps(maker->root, JSON_COMPACT)};

@@ -193,7 +193,8 @@ static void test_a_large_file_that_is_no_picture_is_not_read(void **state) {
     assert_int_equal(ftruncate(fileno(file), 400 << 20), 0);
     fclose(file);
     struct gn_scene *scene = load_images(uris, 1, 60);
-    assert_non_null(strstr(warnings.text[0], "images[0]: neither PNG, JPEG nor WebP; shown without"));
+    assert_non_null(
+        strstr(warnings.text[0], "images[0]: neither PNG, JPEG nor WebP; shown without"));
     assert_non_null(strstr(warnings.text[1], "images[1]: the same picture as images[0]; shown"));
     gn_scene_destroy(scene);
     unlink(path_of("zeros.png"));

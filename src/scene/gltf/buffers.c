@@ -20,6 +20,27 @@ static bool load_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
     return true;
 }
 
+static bool read_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view *view) {
+    struct gn_at buffer_at = gn_at_any(at, "buffer");
+    const int32_t index = gn_at_ref(g, at, "buffer", g->file.buffer_count, "buffers");
+    const uint64_t offset = gn_at_uint(g, at, "byteOffset", 0);
+    const uint64_t length = gn_at_uint(g, at, "byteLength", 0);
+    view->stride = (size_t)gn_at_uint(g, at, "byteStride", 0);
+    view->size = (size_t)length;
+    if (g->failed || !gn_gltf_decompress(g, at, view)) return false;
+    if (view->data) return true;
+    if (index < 0) return gn_gltf_fail(g, &buffer_at, "missing");
+    const struct gn_blob *buffer = &g->file.buffers[index];
+    if (!buffer->data) return true;
+    if (offset > buffer->size || length > buffer->size - offset)
+        return gn_gltf_fail(g, at,
+                            "byteOffset %" PRIu64 " + byteLength %" PRIu64
+                            " passes the end of buffer %d (%zu bytes)",
+                            offset, length, index, buffer->size);
+    view->data = buffer->data + offset;
+    return true;
+}
+
 bool gn_gltf_buffers(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), buffers = gn_at_array(g, &root, "buffers");
     size_t count = gn_at_size(&buffers);
@@ -35,23 +56,7 @@ bool gn_gltf_buffers(struct gn_gltf *g) {
     g->file.views = gn_gltf_alloc(g, &g->memory.load, g->file.view_count, sizeof *g->file.views);
     for (size_t i = 0; i < g->file.view_count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &views, i);
-        struct gn_at buffer_at = gn_at_any(&at, "buffer");
-        struct gn_view *view = &g->file.views[i];
-        int32_t index = gn_at_ref(g, &at, "buffer", g->file.buffer_count, "buffers");
-        uint64_t offset = gn_at_uint(g, &at, "byteOffset", 0);
-        uint64_t length = gn_at_uint(g, &at, "byteLength", 0);
-        view->stride = (size_t)gn_at_uint(g, &at, "byteStride", 0);
-        view->size = (size_t)length;
-        if (g->failed) return false;
-        if (index < 0) return gn_gltf_fail(g, &buffer_at, "missing");
-        const struct gn_blob *buffer = &g->file.buffers[index];
-        if (!buffer->data) continue;
-        if (offset > buffer->size || length > buffer->size - offset)
-            return gn_gltf_fail(g, &at,
-                                "byteOffset %" PRIu64 " + byteLength %" PRIu64
-                                " passes the end of buffer %d (%zu bytes)",
-                                offset, length, index, buffer->size);
-        view->data = buffer->data + offset;
+        if (!read_view(g, &at, &g->file.views[i])) return false;
     }
     return !g->failed;
 }

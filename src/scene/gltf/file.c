@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/model.h"
+#include "scene/gltf/meshopt.h"
 
 enum { HEADER = 12, CHUNK = 8 };
 #define CHUNK_JSON 0x4e4f534aU
@@ -109,11 +110,19 @@ static const struct cure {
     const char *extension, *what_to_do;
 } CURES[] = {
     {"KHR_draco_mesh_compression", "decompress it first (gltf-transform can)"},
-    {"EXT_meshopt_compression", "decompress it first (gltf-transform can)"},
+    {"EXT_meshopt_compression", "decompress it first (gltf-transform can)"}, /* not in this build */
     {"KHR_meshopt_compression", "decompress it first (gltf-transform can)"},
     {"KHR_texture_basisu", "export it with PNG or JPEG pictures"},
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
+
+static bool is_supported(const char *name) {
+    for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
+        if (strcmp(SUPPORTED[i], name) == 0) return true;
+    return (strcmp(name, "EXT_meshopt_compression") == 0 ||
+            strcmp(name, "KHR_meshopt_compression") == 0) &&
+           gn_meshopt_is_read();
+}
 
 bool gn_gltf_check_support(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), asset = gn_at_object(g, &root, "asset");
@@ -141,12 +150,10 @@ bool gn_gltf_check_support(struct gn_gltf *g) {
         struct gn_at at = gn_at_element(&required, i);
         const char *name = json_string_value(at.json), *cure = "export the scene without it";
         if (!name) return gn_gltf_fail(g, &at, "must be a string");
-        bool supported = false;
-        for (size_t k = 0; k < sizeof SUPPORTED / sizeof SUPPORTED[0]; k++)
-            supported |= strcmp(SUPPORTED[k], name) == 0;
         for (size_t k = 0; k < sizeof CURES / sizeof CURES[0]; k++)
             if (strcmp(CURES[k].extension, name) == 0) cure = CURES[k].what_to_do;
-        if (!supported) return gn_gltf_fail(g, &at, "%.80s is not supported; %s", name, cure);
+        if (!is_supported(name))
+            return gn_gltf_fail(g, &at, "%.80s is not supported; %s", name, cure);
     }
     return !g->failed;
 }
