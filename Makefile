@@ -56,7 +56,7 @@ clean:
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
-	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] board/*/*.c)
+	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] src/import/draco.cc board/*/*.c)
 uninstall:
 	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1" \
 	    "$(INTO)/share/man/man1/gnomon-import.1" "$(INTO)/share/man/man5/gnomon.ini.5"
@@ -106,8 +106,15 @@ $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CR
 PKGS    += $(shell $(PKG) --exists freetype2 2> /dev/null && echo freetype2)
 # pictures of textures in WebP
 PKGS    += $(shell $(PKG) --exists libwebp 2> /dev/null && echo libwebp)
-# gnomon-import is a program of its own, for those who have assimp
-IMPORT_C := $(if $(shell $(PKG) --exists assimp 2> /dev/null && echo y),$(sort $(wildcard src/import/*.c)))
+# gnomon-import is a program of its own, for those who have assimp or, by C++, draco
+has      = $(shell $(PKG) --exists $(1) 2> /dev/null && echo y)
+CXX     := $(if $(filter default undefined,$(origin CXX)),$(if $(CROSS),$(CROSS)-)$(if $(findstring clang,$(CC)),clang++,g++),$(CXX)) \
+           $(if $(SYSROOT),--sysroot=$(SYSROOT))
+ASSIMP  := $(call has,assimp)
+DRACO   := $(if $(shell echo '\#include <draco/compression/decode.h>' | $(CXX) -std=c++17 -E -x c++ - > /dev/null 2>&1 && echo y),-ldraco -lstdc++)
+OF_ASSIMP := $(addprefix src/import/,folder_io.c light.c material.c matrix.c mesh.c mtl.c normals.c obj.c picture.c ply.c scene.c texture.c)
+IMPORT_C := $(if $(ASSIMP)$(DRACO),$(filter-out src/import/$(if $(ASSIMP),scene_none.c) $(if $(ASSIMP),,$(OF_ASSIMP)) \
+             $(if $(DRACO),src/import/draco_none.c),$(sort $(wildcard src/import/*.c))))
 
 takes    = $(shell $(CC) -Werror -O2 $(1) -x c -c -o /dev/null -include stdlib.h /dev/null \
              2> /dev/null && echo $(1))
@@ -129,7 +136,7 @@ WARN    := -Wall -Wextra -Wstrict-prototypes -Wmissing-prototypes -Wvla \
            $(call takes,-Wno-format-truncation)
 ALL_CFLAGS := -std=c11 -D_GNU_SOURCE -DGL_GLES_PROTOTYPES=0 -DCGLM_ALL_UNALIGNED \
            -Isrc -Ishaders_es -I$(B)/gen $(WARN) -ffp-contract=off -fno-math-errno $(CFLAGS_$(CONFIG)) \
-           $(shell $(PKG) --cflags $(PKGS) $(HEADERS) $(if $(IMPORT_C),assimp)) $(CPPFLAGS) $(CFLAGS)
+           $(shell $(PKG) --cflags $(PKGS) $(HEADERS) $(if $(ASSIMP),assimp)) $(CPPFLAGS) $(CFLAGS)
 # a compiler for this machine looks for libraries at home first, whatever its sysroot
 OF_ROOT := $(if $(SYSROOT), -L$(SYSROOT)/usr/lib/$(CROSS))
 ALL_LDFLAGS := $(LDFLAGS_$(CONFIG)) $(LDFLAGS)$(OF_ROOT)
@@ -176,17 +183,17 @@ KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
 tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth \
-       $(if $(IMPORT_C),$(B)/tests/hostile_assimp.so)
+       $(if $(ASSIMP),$(B)/tests/hostile_assimp.so)
 man: $(O)/gnomon.1 $(O)/gnomon.ini.5
 
 $(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
 	@echo "link $@"
 	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(GPIO_LIBS) $(LIBS)
-$(B)/gnomon-import: $(call OBJ,$(IMPORT_C)) $(LIB)
+$(B)/gnomon-import: $(call OBJ,$(IMPORT_C)) $(if $(DRACO),$(B)/obj/src/import/draco.o) $(LIB)
 	@echo "link $@"
-	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(shell $(PKG) --libs assimp) $(SECCOMP_LIBS) $(LIBS)
+	$(Q)$(CC) $(ALL_CFLAGS) $(ALL_LDFLAGS) -o $@ $^ $(if $(ASSIMP),$(shell $(PKG) --libs assimp)) $(DRACO) $(SECCOMP_LIBS) $(LIBS)
 no-import:
-	@echo 'no gnomon-import, so no OBJ, FBX, STL, PLY, DAE: it needs libassimp-dev (make deps)'
+	@echo 'no gnomon-import, so no OBJ, FBX, STL, PLY, DAE, no Draco: it needs libassimp-dev or libdraco-dev (make deps)'
 $(LIB): $(call OBJ,$(SRC)) $(B)/obj/gen/embedded.o
 $(TESTLIB): $(call OBJ,$(filter-out $(PROG_C) tests/unit/keep_modules.c,$(TESTS_C)))
 $(LIB) $(TESTLIB): $(B)/sources
@@ -194,6 +201,9 @@ $(LIB) $(TESTLIB): $(B)/sources
 $(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
 	@mkdir -p $(@D) && echo "cc   $<"
 	$(Q)$(COMPILE) $(if $(filter tests/%,$<),-Itests) -c -o $@ $<
+$(B)/obj/src/import/draco.o: src/import/draco.cc $(B)/flags
+	@mkdir -p $(@D) && echo "c++  $<"
+	$(Q)$(CXX) -std=c++17 -Isrc -Wall -Wextra $(CFLAGS_$(CONFIG)) $(CPPFLAGS) $(CXXFLAGS) $(if $(WERROR),-Werror) -MMD -MP -c -o $@ $<
 $(B)/obj/gen/embedded.o: $(B)/gen/embedded.c $(B)/flags
 	@mkdir -p $(@D) && echo "cc   $<"
 	$(Q)$(COMPILE) -c -o $@ $<
@@ -215,7 +225,7 @@ $(B)/tests/hostile_assimp.so: tests/import/hostile_assimp.c
 $(B)/tests/firstflip.so $(B)/tests/ident.so $(B)/tests/hostile_assimp.so: $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
-	    $(shell $(PKG) --cflags libdrm $(if $(IMPORT_C),assimp)) $(OF_ROOT) -o $@ $(filter %.c,$^) -ldl
+	    $(shell $(PKG) --cflags libdrm $(if $(ASSIMP),assimp)) $(OF_ROOT) -o $@ $(filter %.c,$^) -ldl
 $(B)/tests/keyboard: tests/board/keyboard.c $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) $(OF_ROOT) -o $@ $<
@@ -399,7 +409,7 @@ benchmark: benchmark-scenes $(BIN)
 # differs from origin's branch (a fresh clone has no such: accept runs lint).
 ifeq ($(if $(findstring clang,$(CC)),$(CONFIG)),debug)
 TIDY    := src/main.c $(SRC) $(IMPORT_C)
-SYNTAX  := $(TIDY) $(filter-out $(if $(IMPORT_C),,tests/import/%),$(wildcard tests/*/*.c board/host/*.c assets/*.c))
+SYNTAX  := $(TIDY) $(filter-out $(if $(ASSIMP),,tests/import/%),$(wildcard tests/*/*.c board/host/*.c assets/*.c))
 stamps   = $(patsubst %.c,$(B)/obj/%.$(1),$(2))
 syntax: $(call stamps,syntax,$(SYNTAX))
 lint: $(call stamps,tidy,$(TIDY))

@@ -11,7 +11,8 @@ run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
 test_libraries='libcmocka-dev libx11-dev'
 test="clang clang-format clang-tidy groff-base xvfb $test_libraries"
 # for gnomon-import and its sandbox, a window, texts on the picture, textures, meshes
-optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libmeshoptimizer-dev'
+optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libmeshoptimizer-dev libdraco-dev'
+optional_compiler=g++ # with libdraco, of gnomon-import
 optional_run='fonts-dejavu-core' # for those texts
 optional_test='libosmesa6-dev' # not in every Debian
 # fetches libraries for tests/angle, which are for a PC alone; node brings its own where it is not Debian's
@@ -53,7 +54,7 @@ foreign() {
 wanted='' extra='' added=''
 for set in "$@"; do
     case $set in
-    build) wanted="$wanted $build" extra="$extra $optional_build" ;;
+    build) wanted="$wanted $build" extra="$extra $optional_build $optional_compiler" ;;
     run) wanted="$wanted $run" extra="$extra $optional_run" ;;
     test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-} tmux" ;; # tmux: a terminal that scripts can type in
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
@@ -63,7 +64,7 @@ for set in "$@"; do
         added=$(architecture_of "${CROSS:-}")
         compiler=gcc-$(echo "$CROSS" | tr _ -)
         wanted="$wanted $compiler $(foreign "$added" $libraries $test_libraries)"
-        extra="$extra $(foreign "$added" $optional_build $optional_test)"
+        extra="$extra g++-$(echo "$CROSS" | tr _ -) $(foreign "$added" $optional_build $optional_test)"
         ;;
     *) echo "deps.sh: unknown set of packages: $set" >&2 && exit 2 ;;
     esac

@@ -10,4 +10,4 @@ if [ "$version" != 14 ]; then
     echo "not applicable: clang-format is $version here, and the layout is that of 14"
     exit 0
 fi
-find src tests assets board -name '*.[ch]' | xargs "$tool" --dry-run -Werror
+find src tests assets board -name '*.[ch]' -o -name '*.cc' | xargs "$tool" --dry-run -Werror

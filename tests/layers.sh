@@ -30,7 +30,7 @@ BEGIN {
     foreign["turbojpeg.h"] = "image import"
     foreign["webp/decode.h"] = "image"
     foreign["meshoptimizer.h"] = "scene"
-    foreign["assimp/"] = "import"
+    foreign["assimp/"] = foreign["draco/"] = "import"
     foreign["cmocka.h"] = "none"
 }
 function complain(what) { printf "%s:%d: %s\n", FILENAME, FNR, what; bad = 1 }

@@ -16,3 +16,8 @@ enum gn_model_format gn_model_format_of(const char *path) {
         i++;
     return (enum gn_model_format)i;
 }
+
+bool gn_model_is_gltf(const char *path) {
+    const char *dot = strrchr(path, '.');
+    return dot && (strcasecmp(dot, ".glb") == 0 || strcasecmp(dot, ".gltf") == 0);
+}

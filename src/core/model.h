@@ -2,6 +2,8 @@
 #ifndef GN_CORE_MODEL_H
 #define GN_CORE_MODEL_H
 
+#include <stdbool.h>
+
 enum gn_model_format {
     GN_MODEL_OBJ,
     GN_MODEL_FBX,
@@ -19,5 +21,8 @@ extern const struct gn_model_row gn_model_formats[GN_MODEL_FORMAT_COUNT];
 
 /* By the suffix of the name, ignoring case; GN_MODEL_FORMAT_COUNT: unknown. */
 enum gn_model_format gn_model_format_of(const char *path);
+
+/* By the suffix: .glb or .gltf, which gnomon reads itself. */
+bool gn_model_is_gltf(const char *path);
 
 #endif

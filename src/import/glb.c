@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "import/private.h"
+#include "import/import.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "glTF buffers are little endian");
 
@@ -28,15 +28,20 @@ int gn_glb_add(struct gn_glb *glb, const char *array, json_t *item) {
     return (int)json_array_size(list) - 1;
 }
 
-int gn_glb_view(struct gn_glb *glb, const void *data, size_t size) {
+size_t gn_glb_append(struct gn_glb *glb, const void *data, size_t size) {
     size_t start = (glb->size + 3) & ~(size_t)3;
     if (start + size > glb->room) {
         glb->room = 2 * (start + size);
         glb->bin = gn_import_grow(glb->bin, glb->room);
     }
     memset(glb->bin + glb->size, 0, start - glb->size);
-    memcpy(glb->bin + start, data, size);
+    if (size > 0) memcpy(glb->bin + start, data, size);
     glb->size = start + size;
+    return start;
+}
+
+int gn_glb_view(struct gn_glb *glb, const void *data, size_t size) {
+    const size_t start = gn_glb_append(glb, data, size);
     return gn_glb_add(glb, "bufferViews",
                       json_pack("{s:i,s:I,s:I}", "buffer", 0, "byteOffset", (json_int_t)start,
                                 "byteLength", (json_int_t)size));

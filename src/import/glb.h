@@ -16,7 +16,14 @@ struct gn_glb {
     size_t size, room;
 };
 
-enum gn_glb_component { GN_GLB_U8 = 5121, GN_GLB_U16 = 5123, GN_GLB_U32 = 5125, GN_GLB_F32 = 5126 };
+enum gn_glb_component {
+    GN_GLB_I8 = 5120,
+    GN_GLB_U8,
+    GN_GLB_I16,
+    GN_GLB_U16,
+    GN_GLB_U32 = 5125,
+    GN_GLB_F32 = 5126
+};
 struct gn_glb_accessor {
     const void *data;
     size_t count;
@@ -32,6 +39,8 @@ void gn_glb_init(struct gn_glb *glb);
 /* Appends an item to an array of the root, creating the array if needed. Takes ownership of the
  * item; returns its index. */
 int gn_glb_add(struct gn_glb *glb, const char *array, json_t *item);
+/* A copy of these bytes in the binary chunk, at a multiple of 4, which is returned. */
+size_t gn_glb_append(struct gn_glb *glb, const void *data, size_t size);
 /* Adds a bufferView with a copy of these bytes; returns its index. */
 int gn_glb_view(struct gn_glb *glb, const void *data, size_t size);
 /* Adds a bufferView and an accessor on it; returns the accessor's index. Floats must be finite. */

@@ -14,13 +14,14 @@
 #include "core/opener.h"
 #include "core/stop.h"
 #include "core/text.h"
-#include "import/private.h"
+#include "import/import.h"
 
 static const char help[] =
     "usage: gnomon-import [OPTION..] MODEL [-o OUT.glb]\n"
     "\n"
     "Turns a model (.obj .fbx .stl .ply .dae) into a .glb for gnomon, which calls this program by\n"
     "itself when such a file is named. Materials and pictures are read from the model's folder.\n"
+    "A .glb or .gltf is written with its Draco-compressed meshes decompressed.\n"
     "\n"
     "options:\n"
     "  -o, --output FILE      output file (MODEL's name with .glb, unless that file exists)\n"
@@ -92,10 +93,10 @@ static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struc
         return gn_fail_usage(err, argc == optind ? "missing MODEL; see --help"
                                                  : "only one MODEL is accepted");
     opts->model = argv[optind];
-    if (gn_model_format_of(opts->model) == GN_MODEL_FORMAT_COUNT)
-        return gn_fail_usage(err,
-                             "%s: unknown file extension; expected .obj, .fbx, .stl, .ply or .dae",
-                             opts->model);
+    if (gn_model_format_of(opts->model) == GN_MODEL_FORMAT_COUNT && !gn_model_is_gltf(opts->model))
+        return gn_fail_usage(
+            err, "%s: unknown file extension; expected .obj, .fbx, .stl, .ply, .dae, .glb or .gltf",
+            opts->model);
     return true;
 }
 

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "import/private.h"
+#include "import/import.h"
 
 static struct gn_import_report *the_report;
 static const struct gn_import_opts *the_opts;

@@ -8,7 +8,7 @@
 
 #include "core/memory.h"
 #include "core/sandbox.h"
-#include "import/private.h"
+#include "import/import.h"
 
 static void limit_resource(int what, rlim_t most) {
     struct rlimit limit = {most, most};
@@ -41,7 +41,8 @@ void gn_import_work(const struct gn_import_opts *opts, int fd, int opener,
         return;
     }
     gn_glb_init(&import.glb);
-    if (!gn_import_scene_build(&import)) return;
+    const bool is_gltf = import.format == GN_MODEL_FORMAT_COUNT;
+    if (!(is_gltf ? gn_import_gltf_build : gn_import_scene_build)(&import)) return;
     report->done = gn_glb_write(&import.glb, fd, &report->err);
     if (!report->done) gn_fail_prefix(&report->err, "%s", opts->model);
 }

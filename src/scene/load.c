@@ -84,24 +84,61 @@ struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t
     return load_scene(&g, data, size);
 }
 
+/* Of the file; NULL: none that can be reached. To be freed. */
+static char *real_folder(const char *path) {
+    const char *slash = strrchr(path, '/');
+    char folder[PATH_MAX] = ".";
+    size_t length = slash == path ? 1 : slash ? (size_t)(slash - path) : strlen(folder);
+    if (length >= sizeof folder) return NULL;
+    memcpy(folder, slash ? path : ".", length);
+    folder[length] = 0;
+    return realpath(folder, NULL);
+}
+
+static bool read_model(const struct gn_gltf *g, struct gn_bytes *bytes) {
+    const uint64_t most = g->limits.file_mb << 20;
+    return gn_file_read(g->path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, bytes, g->err);
+}
+
+struct gn_scene *gn_scene_load_converted(const char *path, const void *data, size_t size,
+                                         const struct gn_scene_limits *limits,
+                                         struct gn_warnings *warnings, struct gn_err *err) {
+    struct gn_gltf g = {.path = path, .warnings = warnings, .err = err};
+    g.limits = gn_scene_limits_or_default(limits);
+    g.folder = real_folder(path);
+    return load_scene(&g, data, size);
+}
+
 struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_gltf g = {.path = path, .warnings = warnings, .err = err};
     g.limits = gn_scene_limits_or_default(limits);
     struct gn_bytes bytes = {0};
-    uint64_t most = g.limits.file_mb << 20;
-    if (!gn_file_read(path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, &bytes, err)) return NULL;
-    const char *slash = strrchr(path, '/');
-    char folder[PATH_MAX] = ".";
-    size_t length = slash == path ? 1 : slash ? (size_t)(slash - path) : strlen(folder);
-    if (length < sizeof folder) {
-        memcpy(folder, slash ? path : ".", length);
-        folder[length] = 0;
-        g.folder = realpath(folder, NULL);
-    }
+    if (!read_model(&g, &bytes)) return NULL;
+    g.folder = real_folder(path);
     struct gn_scene *scene = load_scene(&g, bytes.data, bytes.size);
     gn_bytes_finish(&bytes);
     return scene;
+}
+
+bool gn_scene_uses(const char *path, const struct gn_scene_limits *limits, const char *extension) {
+    struct gn_err err = {0};
+    struct gn_warnings warnings = {0};
+    struct gn_gltf g = {.path = path, .warnings = &warnings, .err = &err};
+    g.limits = gn_scene_limits_or_default(limits);
+    g.hash_key = gn_hash_key_make();
+    g.end_ns = gn_clock_thread_cpu_ns() + (int64_t)g.limits.seconds * GN_NS_PER_S;
+    struct gn_arena none = {0};
+    g.memory.scene = &none;
+    struct gn_bytes bytes = {0};
+    const bool found = read_model(&g, &bytes) && gn_gltf_open(&g, bytes.data, bytes.size) &&
+                       gn_gltf_uses(&g, extension);
+    json_decref(g.file.json);
+    gn_arena_finish(&g.memory.step);
+    gn_arena_finish(&g.memory.load);
+    gn_arena_finish(&none);
+    gn_bytes_finish(&bytes);
+    return found;
 }
 
 void gn_scene_destroy(struct gn_scene *scene) {

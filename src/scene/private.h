@@ -198,6 +198,7 @@ bool gn_gltf_check_time(struct gn_gltf *g);
 
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf/file.c */
 bool gn_gltf_check_support(struct gn_gltf *g);
+bool gn_gltf_uses(const struct gn_gltf *g, const char *extension);
 bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf/buffers.c */
 bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf/accessor.c */
 bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf/node.c */
@@ -226,7 +227,6 @@ bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at, struct g
 /* uri.c: data: URIs and files in the model's folder or below. err has no path before its
  * text. */
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err);
-bool gn_uri_is_data(const char *uri);
 /* The two steps of it for a file: a descriptor of a regular file, or -1; its bytes. The second
  * closes the descriptor. */
 int gn_uri_open(struct gn_gltf *g, const char *uri, struct gn_err *err);

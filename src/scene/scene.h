@@ -285,6 +285,13 @@ struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *l
 struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t size,
                                      const struct gn_scene_limits *limits,
                                      struct gn_warnings *warnings, struct gn_err *err);
+/* The same for the bytes of a glTF file that stands for the one at path: URIs are relative to its
+ * folder. */
+struct gn_scene *gn_scene_load_converted(const char *path, const void *data, size_t size,
+                                         const struct gn_scene_limits *limits,
+                                         struct gn_warnings *warnings, struct gn_err *err);
+/* Whether a file that cannot be loaded lists that extension of glTF. Reads the file. */
+bool gn_scene_uses(const char *path, const struct gn_scene_limits *limits, const char *extension);
 void gn_scene_destroy(struct gn_scene *scene);
 
 /* What the GPU will have of a picture, with mipmaps, and of all indices, which have 16 bits where

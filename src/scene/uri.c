@@ -6,50 +6,9 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <unistd.h>
 
-static int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    c = (char)(c | 32);
-    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
-
-/* Decodes %XX into out (as large as text); returns the number of bytes. An invalid % is kept. */
-static size_t percent_decode(const char *text, uint8_t *out) {
-    size_t n = 0;
-    while (*text) {
-        int high = *text == '%' ? hex_digit(text[1]) : -1;
-        int low = high >= 0 ? hex_digit(text[2]) : -1;
-        out[n++] = low >= 0 ? (uint8_t)(high * 16 + low) : (uint8_t)*text;
-        text += low >= 0 ? 3 : 1;
-    }
-    return n;
-}
-
-/* ---- data: ---- */
-
-static bool base64_decode(const char *text, size_t length, uint8_t *out, size_t *size) {
-    static const char alphabet[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    int8_t table[256];
-    memset(table, -1, sizeof table);
-    for (int i = 0; i < 64; i++) table[(uint8_t)alphabet[i]] = (int8_t)i;
-    while (length > 0 && text[length - 1] == '=') length--;
-    uint32_t bits = 0;
-    size_t n = 0;
-    for (size_t i = 0; i < length; i++) {
-        int8_t value = table[(uint8_t)text[i]];
-        if (value < 0) return false;
-        bits = bits << 6 | (uint32_t)value;
-        if (i % 4 == 0) continue;
-        out[n++] = (uint8_t)(bits >> (6 - 2 * (i % 4)));
-    }
-    *size = n;
-    return length % 4 != 1;
-}
-
-/* ---- files ---- */
+#include "core/encoding.h"
 
 static bool has_scheme(const char *uri) {
     if (!isalpha((unsigned char)*uri)) return false;
@@ -75,13 +34,11 @@ static bool path_climbs(const char *path) {
     return depth < 0;
 }
 
-bool gn_uri_is_data(const char *uri) { return strncasecmp(uri, "data:", 5) == 0; }
-
 int gn_uri_open(struct gn_gltf *g, const char *uri, struct gn_err *err) {
     /* the file's path below the folder; '\', which some exporters write, becomes '/' */
     char below[PATH_MAX] = "";
     const char *refusal = NULL;
-    size_t length = strlen(uri) < sizeof below ? percent_decode(uri, (uint8_t *)below) : 0;
+    size_t length = strlen(uri) < sizeof below ? gn_percent_decode(uri, (uint8_t *)below) : 0;
     below[length] = 0;
     for (char *c = strchr(below, '\\'); c; c = strchr(c, '\\')) *c = '/';
     if (strlen(uri) >= sizeof below)
@@ -122,23 +79,15 @@ bool gn_uri_read(struct gn_gltf *g, int fd, const char *uri, struct gn_blob *out
 
 bool gn_uri_fetch(struct gn_gltf *g, const char *uri, struct gn_blob *out, struct gn_err *err) {
     *out = (struct gn_blob){0};
-    if (!gn_uri_is_data(uri)) {
+    if (!gn_data_uri_is(uri)) {
         const int fd = gn_uri_open(g, uri, err);
         return fd >= 0 && gn_uri_read(g, fd, uri, out, err);
     }
-    static const char mark[] = ";base64";
-    const char *comma = strchr(uri, ',');
-    if (!comma) return gn_fail(err, "data URI without a comma");
-    size_t length = strlen(comma + 1);
-    uint8_t *bytes = gn_gltf_alloc(g, &g->memory.load, length, 1);
+    const char *why;
+    uint8_t *bytes = gn_gltf_alloc(g, &g->memory.load, strlen(uri), 1);
     if (!bytes) return false;
-    size_t header = (size_t)(comma - uri), tail = sizeof mark - 1;
     out->data = bytes;
-    if (header < tail || strncasecmp(comma - tail, mark, tail) != 0)
-        out->size = percent_decode(comma + 1, bytes);
-    else if (!base64_decode(comma + 1, length, bytes, &out->size))
-        return gn_fail(err, "data URI: not valid base64");
-    return true;
+    return gn_data_uri_decode(uri, bytes, &out->size, &why) || gn_fail(err, "%s", why);
 }
 
 void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob) {

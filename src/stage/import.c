@@ -21,6 +21,10 @@ enum {
 
 bool gn_import_wants(const char *path) { return gn_model_format_of(path) != GN_MODEL_FORMAT_COUNT; }
 
+bool gn_import_wants_refused(const char *path, const struct gn_scene_limits *limits) {
+    return gn_model_is_gltf(path) && gn_scene_uses(path, limits, "KHR_draco_mesh_compression");
+}
+
 /* ---- finding the program ---- */
 
 static bool is_program(char *out, size_t size, int length, const char *folder, const char *more) {
@@ -124,9 +128,10 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     char program[4096];
     if (!find_program(program, sizeof program)) {
         gn_fail(err,
-                "%s: needs " PROGRAM ", which is not installed: install it beside gnomon, or "
-                "convert the file to .glb",
-                path);
+                "%s: needs " PROGRAM ", which is not installed: install it beside gnomon, or %s",
+                path,
+                gn_model_is_gltf(path) ? "decompress its meshes (gltf-transform can)"
+                                       : "convert the file to .glb");
         return NULL;
     }
     struct job job = {.program = program,
@@ -151,7 +156,7 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
         read_log(job.log, warnings, &reported);
         char *glb = ok ? map_memfd(job.glb, &size) : NULL;
         if (glb)
-            scene = gn_scene_load_bytes(path, glb, size, limits, warnings, err);
+            scene = gn_scene_load_converted(path, glb, size, limits, warnings, err);
         else if (ok)
             gn_fail(err, "%s: " PROGRAM " wrote no output", path);
         else if (reported.text[0])

@@ -9,6 +9,8 @@
 
 /* Does the name have the suffix of such a format (.obj .fbx .stl .ply .dae)? */
 bool gn_import_wants(const char *path);
+/* Of a glTF file that gn_scene_load() has refused: are its meshes compressed by Draco? */
+bool gn_import_wants_refused(const char *path, const struct gn_scene_limits *limits);
 /* Runs gnomon-import on the file and loads its output. The program is searched beside our own, in
  * ../libexec from there, in PREFIX/libexec and PREFIX/bin, and in PATH. Its warnings become ours;
  * if it crashes, runs out of time or memory, the import fails. Leaves no file on disk. */

@@ -25,13 +25,20 @@ static struct gn_scene *read_lesson(const char *path, const struct gn_scene_limi
     return NULL;
 }
 
+static struct gn_scene *read_file(const char *path, const struct gn_scene_limits *limits,
+                                  struct gn_warnings *warnings, struct gn_err *err) {
+    if (gn_import_wants(path)) return gn_import_load(path, limits, warnings, err);
+    struct gn_scene *scene = gn_scene_load(path, limits, warnings, err);
+    return scene || !gn_import_wants_refused(path, limits)
+               ? scene
+               : gn_import_load(path, limits, warnings, err);
+}
+
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err) {
     if (path && strncmp(path, GN_SCENE_LESSON, strlen(GN_SCENE_LESSON)) == 0)
         return read_lesson(path, limits, warnings, err);
-    if (path)
-        return gn_import_wants(path) ? gn_import_load(path, limits, warnings, err)
-                                     : gn_scene_load(path, limits, warnings, err);
+    if (path) return read_file(path, limits, warnings, err);
     const struct gn_embedded *sundial = gn_embedded_find("sundial.glb");
     if (!sundial) {
         gn_fail(err, "this build has no built-in scene: name a file");

@@ -124,6 +124,18 @@ static bool is_supported(const char *name) {
            gn_meshopt_is_read();
 }
 
+bool gn_gltf_uses(const struct gn_gltf *g, const char *extension) {
+    static const char *const lists[] = {"extensionsRequired", "extensionsUsed"};
+    for (int k = 0; k < 2; k++) {
+        const json_t *names = json_object_get(g->file.json, lists[k]);
+        for (size_t i = 0; i < json_array_size(names); i++) {
+            const char *name = json_string_value(json_array_get(names, i));
+            if (name && strcmp(name, extension) == 0) return true;
+        }
+    }
+    return false;
+}
+
 bool gn_gltf_check_support(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), asset = gn_at_object(g, &root, "asset");
     const char *version = gn_at_text(g, &asset, "version");

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/encoding.h"
 #include "image/read.h"
 
 enum { UNSEEN = -1, DROPPED = -2 };
@@ -99,7 +100,7 @@ static bool open_source(struct gn_gltf *g, const struct gn_at *at, struct source
     *source = (struct source){.uri = gn_at_text(g, at, "uri"), .fd = -1};
     const int32_t number = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews");
     if (g->failed) return false;
-    if (source->uri && gn_uri_is_data(source->uri))
+    if (source->uri && gn_data_uri_is(source->uri))
         return gn_uri_fetch(g, source->uri, &source->blob, err);
     if (source->uri) {
         struct stat info;
