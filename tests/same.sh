@@ -57,6 +57,7 @@ output() {
 look='--msaa 0 --tone none' # pinned: not the defaults; programs before these had a tone draw so
 "$gnomon" help render 2> /dev/null | grep -q -e --tone || look='--msaa 0'
 "$gnomon" help render 2> /dev/null | grep -q -e --floor && look="$look --floor none"
+"$gnomon" help render 2> /dev/null | grep -q -e --environment && look="$look --environment none"
 picture() {
     size=$1 type=$2 plain=$look
     shift 2

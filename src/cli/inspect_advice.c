@@ -93,7 +93,7 @@ static void check_lights(struct gn_inspection *in) {
     if (s->added.light)
         gn_problem_add(&in->advice,
                        "export lights (KHR_lights_punctual; Blender: Include > Punctual Lights)",
-                       "the file has no light: a sun was made");
+                       "the file has no light: it is shown in a studio");
 }
 
 void gn_inspect_advise(struct gn_inspection *in) {

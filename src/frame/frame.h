@@ -107,7 +107,7 @@ struct gn_frame_environment_opts {
     bool lights_key;     /* the light that was made for the scene is its key: only the rest is the
                             environment. Its colour and radius are among shadow.lights, its
                             direction is in the pose */
-    bool reflected_only; /* its diffuse light is left out: the hemispheres stay */
+    bool reflected_only; /* in materials that need reflections alone; the hemispheres stay */
     float turn_rad;      /* about +Y */
     float strength;      /* factor on its radiance; must be set */
 };

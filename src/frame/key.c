@@ -34,7 +34,9 @@ static uint64_t environment_features(const struct gn_frame *frame, const struct 
     /* a light map stands for all diffuse light that is not of a light */
     if (!frame->environment.reflected_only && m->textures[GN_TEXTURE_LIGHTMAP].texture < 0)
         features |= GN_FEATURE(ENVIRONMENT_DIFFUSE);
-    if (gn_material_is_specular(m)) features |= GN_FEATURE(ENVIRONMENT);
+    if (frame->environment.reflected_only ? gn_material_needs_reflections(m)
+                                          : gn_material_is_specular(m))
+        features |= GN_FEATURE(ENVIRONMENT);
     if (!features) return 0;
     if (frame->environment.scaled) features |= GN_FEATURE(ENVIRONMENT_SCALED);
     if (frame->environment.turned) features |= GN_FEATURE(ENVIRONMENT_TURNED);

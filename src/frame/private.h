@@ -66,7 +66,7 @@ struct gn_frame {
     struct gn_caps caps;
     bool has_middle; /* some item casts by its middle */
     struct {
-        bool reflected_only; /* diffuse light is the hemispheres' */
+        bool reflected_only; /* as in gn_frame_environment_opts */
         bool scaled, turned;
     } environment; /* of this frame */
     struct {

@@ -57,7 +57,7 @@ GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .
 GN_OPTION(.name = "slide-far", .section = "render", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
           .help = "depth in the light's cone at which the picture of a slide ends, as the scene says (auto); 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_far_m))
 GN_OPTION(.name = "environment", .section = "render", .kind = GN_KIND_PATH, .choices = environments, .value = "auto|studio|none|FILE.hdr", .fallback = "auto",
-          .help = "light from all directions: the studio inside the program, a Radiance picture, or none (auto)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment))
+          .help = "light from all directions: the studio inside the program, a Radiance picture, or none; by itself studio for a scene without lights of its own, and in others only as reflections of metal", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment))
 GN_OPTION(.name = "environment-turn", .section = "render", .kind = GN_KIND_NUMBER, .min = -360, .max = 360, .value = "DEG", .unit = "degrees", .fallback = "0",
           .help = "turn the environment about the vertical axis, counter-clockwise seen from above", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_turn_deg))
 GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "X", .fallback = "1",

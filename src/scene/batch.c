@@ -9,7 +9,7 @@
 /* The properties of a material that select its program and state, as words to compare. */
 enum {
     SLOT_WORDS = 2 + 6,
-    FLAG_WORDS = 12,
+    FLAG_WORDS = 13,
     LOOK_WORDS = GN_TEXTURE_SLOT_COUNT * SLOT_WORDS + FLAG_WORDS
 };
 struct look {
@@ -44,6 +44,7 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
         *to++ = m->shadow_catcher;
         *to++ = gn_material_is_specular(m) && !m->unlit;
         *to++ = gn_material_is_metal(m) && !m->unlit;
+        *to++ = gn_material_needs_reflections(m);
         *to++ = gn_material_is_emissive(m);
         if (m->textures[GN_TEXTURE_NORMAL].texture >= 0) /* a uniform, beside the transforms */
             memcpy(to, &m->normal_scale, sizeof m->normal_scale);

@@ -11,6 +11,10 @@ const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
 
 bool gn_material_is_metal(const struct gn_material *m) { return m->metalness > 0.0f; }
 
+bool gn_material_needs_reflections(const struct gn_material *m) {
+    return !m->unlit && gn_material_is_metal(m);
+}
+
 bool gn_material_has_opaque_texels(const struct gn_material *m) {
     return m->alpha == GN_ALPHA_BLEND && !m->shadow_catcher && m->base_color[3] >= GN_OPAQUE_ALPHA;
 }

@@ -50,6 +50,8 @@ bool gn_material_is_specular(const struct gn_material *material); /* has a highl
 bool gn_material_has_opaque_texels(const struct gn_material *material);
 #define GN_OPAQUE_ALPHA 0.99f
 bool gn_material_is_metal(const struct gn_material *material); /* in places */
+/* Whether it looks wrong without an environment: most of what one sees of it are reflections. */
+bool gn_material_needs_reflections(const struct gn_material *material);
 bool gn_material_is_emissive(const struct gn_material *material);
 bool gn_material_has_f0(const struct gn_material *material); /* other than GN_F0 */
 /* Whether a picture of the material reads the slot, if it has such a texture. */

@@ -170,19 +170,29 @@ static const struct open_environment *open_environment(const char *name, struct 
 
 /* ---- of a look ---- */
 
+static bool needs_reflections(const struct gn_scene *scene) {
+    bool any = false;
+    for (uint32_t i = 0; i < scene->item_count && !any; i++)
+        any = gn_material_needs_reflections(&scene->materials[scene->items[i].material]);
+    return any;
+}
+
 bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settings *settings,
                               const struct gn_scene *scene, struct gn_err *err) {
     const char *name = settings->render.environment;
     const float strength = (float)settings->render.environment_strength;
+    const bool automatic = !name || strcmp(name, "auto") == 0,
+               reflected_only = automatic && !scene->added.light;
     opts->environment = (struct gn_frame_environment_opts){0};
-    if (!name || strcmp(name, "auto") == 0 || strcmp(name, "none") == 0 || strength <= 0.0f)
-        return true;
+    if (automatic) name = reflected_only && !needs_reflections(scene) ? "none" : "studio";
+    if (strcmp(name, "none") == 0 || strength <= 0.0f) return true;
     const struct open_environment *open = open_environment(name, err);
     if (!open) return false;
     opts->environment = (struct gn_frame_environment_opts){
         .of = open->of,
         .id = open->id,
         .lights_key = scene->added.light,
+        .reflected_only = reflected_only,
         .turn_rad = glm_rad((float)settings->render.environment_turn_deg),
         .strength = strength,
     };

@@ -147,14 +147,16 @@ static void set_made_light(struct gn_frame_shadow_opts *opts, const struct gn_se
                            const struct gn_scene *scene) {
     const struct gn_light_settings *s = &settings->light;
     const struct gn_light *light = &scene->lights[scene->light_count - 1];
-    struct gn_frame_light_opts entry = {.light = scene->light_count - 1};
-    if (is_given(settings, offsetof(struct gn_settings, light.radius))) {
-        entry.radius = (float)s->radius;
-        entry.given |= GN_LIGHT_RADIUS;
+    const bool has_radius = is_given(settings, offsetof(struct gn_settings, light.radius));
+    if (!has_radius && s->color < 0 && isnan(s->lux)) return;
+    struct gn_frame_light_opts *entry = find_entry(opts, scene->light_count - 1);
+    if (!entry) return;
+    if (has_radius) {
+        entry->radius = (float)s->radius;
+        entry->given |= GN_LIGHT_RADIUS;
     }
-    if (s->color >= 0) set_color(&entry, s->color, light);
-    if (!isnan(s->lux)) set_intensity(&entry, s->lux, light);
-    if (entry.given) opts->lights[opts->light_count++] = entry;
+    if (s->color >= 0) set_color(entry, s->color, light);
+    if (!isnan(s->lux)) set_intensity(entry, s->lux, light);
 }
 
 static void warn_of_name(const struct gn_light_section *section, const struct gn_scene *scene,
@@ -226,9 +228,8 @@ void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *
                       const struct gn_environment_key *key, float strength) {
     struct gn_frame_light_opts *entry = find_entry(opts, scene->light_count - 1);
     if (!entry) return;
-    if (!(entry->given & GN_LIGHT_RADIUS)) entry->radius = key->radius;
-    if (!(entry->given & GN_LIGHT_COLOR))
-        for (int k = 0; k < 3; k++) entry->color[k] = key->color[k] * strength;
+    entry->radius = key->radius;
+    for (int k = 0; k < 3; k++) entry->color[k] = key->color[k] * strength;
     entry->given |= GN_LIGHT_RADIUS | GN_LIGHT_COLOR;
 }
 

@@ -17,8 +17,8 @@ void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_sett
  * that it shines as it was made, or as the key of the environment. */
 void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
                   const struct gn_settings *settings);
-/* After that: the light made for a scene without any is the key of its environment; what settings
- * say of it holds. */
+/* Before that: the light made for a scene without any is the key of its environment, until settings
+ * say otherwise. */
 void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *scene,
                       const struct gn_environment_key *key, float strength);
 /* What holds of a section, as "shadow = pcss, map = 512"; "" if that is nothing. */

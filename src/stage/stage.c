@@ -228,10 +228,10 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
     set_framing(&look->frame_opts.view.framing, &o->camera);
-    gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
         !do_without(o, offsetof(struct gn_settings, render.environment), warnings, err))
         return false;
+    gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     if (look->frame_opts.msaa > 1 && casts_rays(&look->frame_opts.shadow))
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
                              gn_settings_label(o, render.msaa), look->frame_opts.msaa);

@@ -27,7 +27,9 @@ sed 's/Pss: %ld/Private_Dirty: %ld/; s/pss_mb/private_dirty_mb/' "$floor_c" > "$
     skip "the floor does not compile here: $floor_c"
 
 floor() { "$work/floor" -w $width -h $height -n "$frames" --only frame "$@"; }
-bench() { "$gnomon" bench "$@" --size ${width}x$height --json; }
+bench() { "$gnomon" bench --size ${width}x$height --json "$@"; }
+plain='--msaa 0 --tone none --environment none' # as the floor draws
+look='--msaa auto --tone neutral --environment studio' # as a model without lights is shown by itself
 
 # out of JSON with a field a line: the run of a technique, a field of it; or a field of the top
 run_field() { # FILE TECHNIQUE FIELD
@@ -53,9 +55,12 @@ for round in $(seq "$rounds"); do
         grid=8 && [ $s = 1 ] || grid=64
         floor -g $grid > "$work/rounds/floor$s.$round"
         for output in linear srgb; do
-            bench assets/bench/s$s.glb --frames "$frames" --shadow none,hard,pcf3 \
+            # shellcheck disable=SC2086
+            bench assets/bench/s$s.glb --frames "$frames" --shadow none,hard,pcf3 $plain \
                 --output $output > "$work/rounds/$output$s.$round"
         done
+        # shellcheck disable=SC2086
+        bench assets/bench/s$s.glb --frames "$frames" --shadow cone $look > "$work/rounds/look$s.$round"
     done
 done
 
@@ -92,6 +97,7 @@ for s in 1 2; do
         judge "S$s $t" "$(least_run linear$s $t)" "$base" ms $limit quotient
         judge "S$s $t, sRGB" "$(least_run srgb$s $t)" "$base" ms - quotient
     done
+    judge "S$s in the studio, cone" "$(least_run look$s cone)" "$(least_row floor$s frame/none/inst)" ms - quotient
 done
 dirty=$(for f in "$work"/rounds/linear1.*; do top_field "$f" private_dirty_mb; done | least)
 floor_dirty=$(for f in "$work"/rounds/floor1.*; do floor_word "$f" private_dirty_mb; done | least)

@@ -36,7 +36,9 @@ bool gn_drawer_draw(struct gn_drawer *drawer, const char *const args[], float *r
     const char *argv[40] = {"gnomon", "render", drawer->scene, "-o", "none.pfm"};
     struct gn_options options;
     int argc = 5;
-    while (*args && argc < 40) argv[argc++] = *args++;
+    while (*args && argc < 38) argv[argc++] = *args++;
+    argv[argc++] = "--environment"; /* as in gn_shot() */
+    argv[argc++] = "none";
     bool ok = gn_args_parse(&options, argc, (char *const *)(uintptr_t)argv, NULL, err);
     ok = ok && look(drawer, options.settings, err);
     drawer->stage.settings = options.settings;

@@ -119,7 +119,7 @@ bool gn_shot_file(const char *path, int *status, struct gn_err *err, const char 
     const char *argv[64] = {gn_shot_program(), "render", scene, "-o", path};
     int n = 5;
     static const char *const plain[][2] = {
-        {"--tone", "none"}, {"--msaa", "0"}, {"--floor", "none"}};
+        {"--tone", "none"}, {"--msaa", "0"}, {"--floor", "none"}, {"--environment", "none"}};
     while (*args && n < 58) argv[n++] = *args++;
     /* what is compared is what surfaces reflect, unless a test is about how it is shown */
     for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++) {

@@ -22,7 +22,8 @@ struct gn_run {
  */
 bool gn_run(struct gn_run *run, const char *const argv[], int timeout_s, struct gn_err *err);
 
-/* `gnomon render SCENE -o FILE ARGS..`, with --tone none and --msaa 0 unless ARGS have others; they
+/* `gnomon render SCENE -o FILE ARGS..`, with --tone none, --msaa 0, --floor none and --environment
+ * none unless ARGS have others; they
  * end with NULL. kind: "png" or "pfm". On failure the message holds the command, its status and
  * what it said; status (may be NULL) gets the status either way. */
 bool gn_shot(struct gn_picture *picture, int *status, struct gn_err *err, const char *kind,

@@ -42,9 +42,12 @@ static int clear_up(void **state) {
 }
 
 static void start(struct shown *s, const char *const args[]) {
-    const char *argv[20] = {gn_shot_program()};
+    const char *argv[24] = {gn_shot_program()};
+    int count = 1;
     snprintf(s->said, sizeof s->said, "%s/window-%d.txt", gn_shot_build(), (int)getpid());
-    for (int i = 0; args[i]; i++) argv[1 + i] = args[i];
+    for (int i = 0; args[i]; i++) argv[count++] = args[i];
+    argv[count++] = "--environment"; /* as in gn_shot() */
+    argv[count] = "none";
     s->window = 0;
     running = s->pid = fork();
     if (s->pid != 0) return;

@@ -1,4 +1,6 @@
 /* Plans of how a picture is shown: its tone, and what is blended. */
+#include <string.h>
+
 #include "plan/fixture.h"
 #include "unit/check.h"
 
@@ -62,11 +64,31 @@ static void test_blended_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* With lights of its own: only metal reads the environment, and keeps the hemispheres. */
+static void test_reflections_plan(void **state) {
+    (void)state;
+    static const struct gn_environment environment;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    for (uint32_t i = 0; i < f.scene->material_count; i++)
+        if (strcmp(f.scene->materials[i].name, "blue") == 0) f.scene->materials[i].metalness = 1;
+    f.opts.environment = (struct gn_frame_environment_opts){
+        .of = &environment, .id = 2, .reflected_only = true, .strength = 1};
+    gn_plan_expect(gn_plan_make(&f), "reflections");
+    /* no AOV shows it */
+    for (int aov = GN_AOV_COLOR + 1; aov < GN_AOV_COUNT; aov++) {
+        f.opts.debug.aov = (enum gn_aov)aov;
+        assert_null(gn_plan_make(&f)->environment.light);
+    }
+    gn_plan_end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tone_of_many_lights_plan),
         cmocka_unit_test(test_a_tone_is_for_pictures_that_are_looked_at),
         cmocka_unit_test(test_blended_plan),
+        cmocka_unit_test(test_reflections_plan),
     };
     return RUN(tests);
 }

@@ -36,12 +36,13 @@ static void make_scene(bool with_lights) {
 }
 
 static bool build_look(const char *file, const char *flag, const char *value) {
-    char *argv[] = {"gnomon", "render", "-c", path, (char *)flag, (char *)value, NULL};
+    char *argv[] = {"gnomon", "render",     "--environment", "none", "-c",
+                    path,     (char *)flag, (char *)value,   NULL};
     gn_options_finish(&options);
     warnings = (struct gn_warnings){0};
     err = (struct gn_err){0};
     assert_true(gn_file_write(path, file, strlen(file), &err));
-    if (!gn_args_parse(&options, flag ? 6 : 4, argv, &warnings, &err)) fail_msg("%s", err.text);
+    if (!gn_args_parse(&options, flag ? 8 : 6, argv, &warnings, &err)) fail_msg("%s", err.text);
     return gn_stage_look_build(&look, options.settings, scene, &warnings, &err);
 }
 
