@@ -9,11 +9,14 @@
 #include "lib/tone.glsl"
 #include "lib/environment.glsl"
 
-#if defined WITH_REFLECTANCE || defined WITH_LIGHTMAP_TEXTURE
-uniform vec4 u_factors[1]; // rgb: reflectance at normal incidence of what is no metal; w: intensity of the light map
-#endif
 #ifdef WITH_LIGHTMAP_TEXTURE
 uniform mediump sampler2D u_texture_lightmap;
+#endif
+#ifdef WITH_COAT_TEXTURE
+uniform mediump sampler2D u_texture_coat;
+#endif
+#ifdef WITH_COAT_ROUGHNESS_TEXTURE
+uniform mediump sampler2D u_texture_coat_roughness;
 #endif
 #ifdef WITH_ROUGHNESS_TEXTURE
 uniform mediump sampler2D u_texture_roughness;
@@ -88,7 +91,44 @@ struct surface {
     float exponent;
     vec3 f0; // with ENVIRONMENT: reflectance at normal incidence
     float roughness;
+#ifdef WITH_COAT
+    vec3 coat_normal; // unit
+    float coat, coat_roughness; // share of the light that the coat reflects
+#endif
+#ifdef WITH_TRANSMISSION
+    vec3 through; // factors on what is behind
+#endif
 };
+
+// KHR_materials_clearcoat: a smooth layer with an index of refraction of 1.5 and the normal of the mesh. The rest of the surface gets,
+// and shows, what it does not reflect.
+void surface_add_coat(vec3 smooth_normal, inout surface s) {
+#ifdef WITH_COAT
+    vec2 coat = u_factors[1].xy;
+#ifdef WITH_COAT_TEXTURE
+    coat.x *= texture(u_texture_coat, v_uv_coat).r;
+#endif
+#ifdef WITH_COAT_ROUGHNESS_TEXTURE
+    coat.y *= texture(u_texture_coat_roughness, v_uv_coat_roughness).g;
+#endif
+    s.coat_normal = smooth_normal;
+    s.coat_roughness = coat.y;
+    s.coat = coat.x * environment_share(vec3(0.04), coat.y, dot(smooth_normal, s.to_eye)).x;
+#endif
+}
+
+// KHR_materials_transmission of a thin wall: of what is not reflected, the share that is not diffuse shows what is behind, in the base
+// colour; straight, whatever the roughness. Reflections stay whole.
+void surface_add_transmission(inout surface s) {
+#ifdef WITH_TRANSMISSION
+    float clear = surface_transmission();
+    s.through = min(s.diffuse, 1.0) * clear * (1.0 - environment_share(s.f0, s.roughness, dot(s.normal, s.to_eye)));
+#ifdef WITH_COAT
+    s.through *= 1.0 - s.coat;
+#endif
+    s.diffuse *= 1.0 - clear;
+#endif
+}
 
 surface surface_make(vec4 base, vec3 smooth_normal) {
     surface s;
@@ -108,6 +148,8 @@ surface surface_make(vec4 base, vec3 smooth_normal) {
         s.specular = s.f0 * (0.125 * s.exponent + 1.0);
         if (METAL) s.diffuse = base.rgb * (1.0 - rm.y);
         s.to_eye = surface_to_eye();
+        surface_add_coat(smooth_normal, s);
+        surface_add_transmission(s);
     }
     return s;
 }
@@ -142,14 +184,20 @@ vec3 surface_irradiance(surface s) {
 // Factor on diffuse light of the environment; the hemispheres have none.
 float environment_scale() { return ENVIRONMENT_DIFFUSE && ENVIRONMENT_SCALED ? PASS(PASS_SKY).w : 1.0; }
 
-// Reflected radiance of the ambient light. Without SPECULAR it lacks the albedo.
-vec3 surface_ambient(surface s, vec3 base) {
-    vec3 ambient = surface_irradiance(s);
+// Share of the ambient light that arrives.
+float surface_open() {
     float open = environment_scale();
 #ifdef WITH_OCCLUSION_TEXTURE
     if (CATCHER) open *= texture(u_texture_occlusion, (v_position.xz - v_surface.xy) * v_surface.w + 0.5).r;
     else open *= 1.0 + v_surface.z * (texture(u_texture_occlusion, v_uv_occlusion).r - 1.0);
 #endif
+    return open;
+}
+
+// Reflected radiance of the ambient light. Without SPECULAR it lacks the albedo.
+vec3 surface_ambient(surface s, vec3 base) {
+    vec3 ambient = surface_irradiance(s);
+    float open = surface_open();
 #ifdef WITH_ENVIRONMENT
     float n_v = dot(s.normal, s.to_eye);
     vec3 along = environment_direction(2.0 * n_v * s.normal - s.to_eye);
@@ -184,6 +232,29 @@ vec3 surface_light(surface s, light_sample l, float seen, float shine) {
     return (s.diffuse + surface_highlight(s, n_h)) * arriving;
 }
 
+// Radiance that reaches the eye by way of the coat, before the share s.coat of it: of the environment, and of a light.
+vec3 coat_ambient(surface s) {
+#if defined WITH_COAT && defined WITH_ENVIRONMENT
+    vec3 along = environment_direction(2.0 * dot(s.coat_normal, s.to_eye) * s.coat_normal - s.to_eye);
+    float scale = surface_open() * (ENVIRONMENT_SCALED && !ENVIRONMENT_DIFFUSE ? PASS(PASS_SKY).w : 1.0);
+    return textureLod(u_environment, along, s.coat_roughness * ENVIRONMENT_ROUGHEST).rgb * scale;
+#else
+    return vec3(0.0);
+#endif
+}
+
+vec3 coat_light(surface s, light_sample l, float shine) {
+#ifdef WITH_COAT
+    vec3 h = l.to_light + s.to_eye;
+    float n_h = max(dot(s.coat_normal, h) * inversesqrt(dot(h, h)), 0.0001);
+    float alpha = max(s.coat_roughness * s.coat_roughness, 0.002);
+    float exponent = 2.0 / (alpha * alpha) - 2.0;
+    return l.color * (max(dot(s.coat_normal, l.to_light), 0.0) * shine * pow(n_h, exponent) * (0.125 * exponent + 1.0));
+#else
+    return vec3(0.0);
+#endif
+}
+
 // Light `slot` of the pass at this fragment, unshadowed but with the transmittance of its slide.
 light_sample light_here(const int slot, const int type) {
     light_sample l = light_at(slot, type, v_position);
@@ -213,12 +284,15 @@ light_sample light_here(const int slot, const int type) {
         float left = SHADOW_SPECULAR ? floor(taken * 0.5) : 0.0; \
         if (SHADOW_SPECULAR) taken -= 2.0 * left; \
         light += surface_light(s, l, 1.0 - taken * (1.0 - seen), mix(left / 255.0, 1.0, seen)); \
+        if (COAT) coat += coat_light(s, l, SHADOW_SPECULAR ? mix(left / 255.0, 1.0, seen) : 1.0 - taken * (1.0 - seen)); \
         if (CATCHER) open += surface_light(s, l, 1.0, 1.0); \
     }
 #define ADD_OPEN_LIGHT(slot, type) \
     { \
-        vec3 all = surface_light(s, light_here(slot, type), 1.0, 1.0); \
+        light_sample l = light_here(slot, type); \
+        vec3 all = surface_light(s, l, 1.0, 1.0); \
         light += all; \
+        if (COAT) coat += coat_light(s, l, 1.0); \
         if (CATCHER) open += all; \
     }
 
@@ -229,20 +303,42 @@ float caught_shadow(vec3 light, vec3 open) {
     return taken * clamp(2.0 - 2.0 * length((v_position.xz - v_surface.xy) * v_surface.z), 0.0, 1.0);
 }
 
+#if defined WITH_TRANSMISSION && defined WITH_UNLIT
+// The tint of a surface whose own light comes with the next draw; alpha: what it covers. With GN_BLEND_TINT.
+void main() {
+    vec4 base = surface_base();
+    surface_cut(base);
+    surface s = surface_make(base, surface_normal());
+    float covered = ALPHA_BLEND ? base.a : 1.0;
+    vec3 color = 1.0 - covered * (1.0 - s.through);
+    o_color.a = 1.0 - dot(color, vec3(0.2126, 0.7152, 0.0722));
+    o_color.rgb = ENCODE_SRGB ? srgb_from_linear(color) : color;
+}
+#else
 void main() {
     vec3 face = surface_face_normal();
     vec4 base = surface_base();
     if (!CUT_LAST) surface_cut(base);
     vec3 color = base.rgb;
+#ifdef WITH_TRANSMISSION
+    vec3 through;
+#endif
     if (!UNLIT) {
         vec3 smooth_normal = surface_normal();
         surface s = surface_make(base, smooth_normal);
         vec3 light = ADDITIVE ? vec3(0.0) : surface_ambient(s, base.rgb);
         vec3 open = CATCHER ? surface_irradiance(s) * environment_scale() : light; // without shadows, of a catcher
+        vec3 coat = COAT && !ADDITIVE ? coat_ambient(s) : vec3(0.0);
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
         color = SPECULAR ? light : light * base.rgb;
         if (EMISSIVE) color += surface_emission();
+#ifdef WITH_COAT
+        color = mix(color, coat, s.coat);
+#endif
+#ifdef WITH_TRANSMISSION
+        through = s.through;
+#endif
         if (CATCHER) base.a = caught_shadow(light, open);
     }
     if (CATCHER) color = vec3(0.0);
@@ -251,6 +347,10 @@ void main() {
 #endif
     if (ENCODE_SRGB) color = srgb_from_linear(color);
     o_color = ALPHA_BLEND ? vec4(color * base.a, base.a) : vec4(color, 1.0);
+#ifdef WITH_TRANSMISSION // grey: the factor on what is behind is 1 - alpha
+    o_color.a = TINTED ? 0.0 : o_color.a * (1.0 - through.g);
+#endif
     if (ADDITIVE) o_color.a = 0.0; // with premultiplied blending this adds
     if (CUT_LAST) surface_cut(base);
 }
+#endif

@@ -7,6 +7,11 @@ flat in float v_cutoff;
 #ifdef WITH_BASE_TEXTURE
 uniform sampler2D u_texture_base;
 #endif
+#ifdef WITH_TRANSMISSION_TEXTURE
+in vec2 v_uv_transmission;
+flat in float v_transmitted; // share of the light, times the texture
+uniform sampler2D u_texture_transmission;
+#endif
 #endif
 
 void cut_holes() {
@@ -14,6 +19,9 @@ void cut_holes() {
     float alpha = v_alpha;
 #ifdef WITH_BASE_TEXTURE
     alpha *= texture(u_texture_base, v_uv).a;
+#endif
+#ifdef WITH_TRANSMISSION_TEXTURE
+    alpha *= 1.0 - v_transmitted * texture(u_texture_transmission, v_uv_transmission).r;
 #endif
     float least = v_cutoff;
     if (ALPHA_DITHER) // interleaved gradient noise, as in lib/noise.glsl

@@ -6,6 +6,10 @@
 out vec2 v_uv;
 out float v_alpha;
 flat out float v_cutoff;
+#ifdef WITH_TRANSMISSION_TEXTURE
+out vec2 v_uv_transmission;
+flat out float v_transmitted;
+#endif
 #endif
 
 void place_caster(vec3 p) {
@@ -14,5 +18,9 @@ void place_caster(vec3 p) {
     v_uv = slot_uv(SLOT_BASE, BASE_UV1);
     v_alpha = a_base_color.a * (VERTEX_COLOR ? a_color.a : 1.0);
     v_cutoff = a_surface.w;
+#ifdef WITH_TRANSMISSION_TEXTURE
+    v_uv_transmission = slot_uv(SLOT_TRANSMISSION, TRANSMISSION_UV1);
+    v_transmitted = a_surface.z;
+#endif
 #endif
 }

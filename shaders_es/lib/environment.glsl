@@ -26,7 +26,7 @@ void environment_diffuse(vec3 n, out vec3 even, out vec3 odd) {
     odd = clamp(odd, -even, even); // no light is negative on either side
 }
 
-#ifdef WITH_ENVIRONMENT
+#if defined WITH_ENVIRONMENT || defined WITH_COAT || defined WITH_TRANSMISSION
 // Share of the environment that a surface reflects, by its reflectance at normal incidence. Karis, "Physically Based Shading on
 // Mobile" (2014): f0 a + b, where a + b = 1 - 0.55 roughness; his b without a factor of 1.04 and terms under 0.005. What one reflection loses between
 // microfacets comes back by further ones, each dimmed by f0: Fdez-Aguera, "A Multiple-Scattering Microfacet Model for Real-Time

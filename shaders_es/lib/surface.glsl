@@ -20,6 +20,22 @@ in vec3 v_shadow[SHADOW_COUNT]; // of slots with SHADOW_LINEAR or SHADOW_PROJECT
 uniform mediump sampler2D u_texture_base;
 #endif
 
+#ifdef WITH_TRANSMISSION_TEXTURE
+uniform mediump sampler2D u_texture_transmission;
+#endif
+// [0] rgb: reflectance at normal incidence of what is no metal; w: intensity of the light map. [1] x: clear coat; y: its roughness;
+// z: transmission
+uniform vec4 u_factors[2];
+
+// Share of the light that is not reflected at the surface and that passes it, if it is no metal.
+float surface_transmission() {
+#ifdef WITH_TRANSMISSION_TEXTURE
+    return u_factors[1].z * texture(u_texture_transmission, v_uv_transmission).r;
+#else
+    return u_factors[1].z;
+#endif
+}
+
 // Linear base colour and alpha.
 vec4 surface_base() {
     vec4 base = v_color;
@@ -30,7 +46,11 @@ vec4 surface_base() {
 }
 
 // Alpha mask: discards fragments below the cutoff. BLENDED_REST: those above, which are in the picture. Derivatives in neighbouring fragments are undefined after this.
+// What transmits by a texture is cut by that: opaque where it transmits nothing.
 void surface_cut(vec4 base) {
+#ifdef WITH_TRANSMISSION_TEXTURE
+    if (!ALPHA_BLEND && (BLENDED_REST || !TRANSMISSION)) base.a = 1.0 - surface_transmission();
+#endif
     if (ALPHA_MASK && base.a < v_surface.w) discard;
     if (BLENDED_REST && base.a >= v_surface.w) discard;
 }

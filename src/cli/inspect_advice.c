@@ -42,7 +42,7 @@ static void check_surfaces(struct gn_inspection *in) {
     uint32_t count = 0, material = 0; /* blended items that should cast; the first one's */
     for (uint32_t i = 0; i < s->item_count; i++) {
         const struct gn_item *item = &s->items[i];
-        if (!item->casts || s->materials[item->material].alpha != GN_ALPHA_BLEND) continue;
+        if (!item->casts || !gn_material_is_clear(&s->materials[item->material])) continue;
         if (!count++) material = item->material;
     }
     if (count)

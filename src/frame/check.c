@@ -34,6 +34,8 @@ static const char *check_draw(const struct gn_plan *plan, const struct gn_pass *
             (key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
     REQUIRE(caption == picture->reads_atlas);
     REQUIRE(adds == (picture->blend == GN_BLEND_ADD));
+    const uint64_t tint = GN_FEATURE(TINTED) | GN_FEATURE(UNLIT);
+    REQUIRE(((key->features & tint) == tint) == (picture->blend == GN_BLEND_TINT));
     REQUIRE(key->light_count <= picture->light_count);
     REQUIRE(key->shadow_count <= picture->shadow_count);
     uint32_t slides = 0;
@@ -104,6 +106,7 @@ static const char *check_picture(const struct gn_plan *plan, const struct gn_pas
     REQUIRE(p->slide_count <= GN_SLIDES_MAX);
     for (uint32_t i = 0; i < p->slide_count; i++)
         REQUIRE(p->slides[i] < plan->scene->pictures.texture_count);
+    REQUIRE(p->blend != GN_BLEND_TINT || (!pass->depth_write && !clears));
     if (p->blend == GN_BLEND_ADD) { /* to surfaces that are in the depth buffer */
         REQUIRE(!pass->depth_write && !clears);
         REQUIRE(plan->output != GN_OUTPUT_LINEAR8 || !plan->encode_srgb);

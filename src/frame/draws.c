@@ -62,7 +62,7 @@ static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
         return false;
     const struct gn_material *m = &frame->scene->materials[frame->scene->items[item].material];
     const struct gn_box *box = &pose->items[item].box_ws;
-    const bool opaque = m->alpha != GN_ALPHA_BLEND || gn_material_has_opaque_texels(m);
+    const bool opaque = !gn_material_is_blended(m) || gn_material_has_opaque_texels(m);
     if (s->group) /* of added lights: opaque items in their range */
         return pose->items[item].visible && !m->unlit && opaque && gn_eye_sees(&frame->eye, box) &&
                gn_group_touches(s->group, box);
@@ -70,12 +70,26 @@ static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
         frame->plan.culled++;
         return false;
     }
-    if (m->alpha != GN_ALPHA_BLEND) return true;
+    if (!gn_material_is_blended(m)) return true;
     if (m->shadow_catcher && s->opts->debug.aov == GN_AOV_VISIBILITY) return true;
     if (s->opts->debug.aov == GN_AOV_COLOR) /* a shadow catcher is behind all that is blended */
         GN_LIST_PUSH(&frame->items.blended) =
             (struct gn_placed){m->shadow_catcher ? INFINITY : depth_of(frame, box, false), item};
     return opaque && s->opts->debug.aov == GN_AOV_COLOR;
+}
+
+/* Of a caster: the part of the light that it lets through is taken from its alpha; if a texture
+ * says where, by the shader, from surface.z. */
+static void set_transmitted(const struct gn_material *m, struct gn_instance *instance) {
+    if (!gn_material_is_transmissive(m)) return;
+    const float *c = m->base_color;
+    const float through = m->transmission * (1.0f - m->metalness) *
+                          glm_clamp_zo(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);
+    if (m->alpha == GN_ALPHA_OPAQUE) instance->base_color[3] = 1.0f;
+    if (m->textures[GN_TEXTURE_TRANSMISSION].texture >= 0)
+        instance->surface[2] = through;
+    else
+        instance->base_color[3] *= 1.0f - through;
 }
 
 void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
@@ -98,6 +112,7 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
         if (s->casts && !s->backs && casts_by_middle(frame->scene, pose, item, s->view))
             gn_key_add_middle(s->view, &key);
         if (in_parts) gn_key_take_part(s->blends, &key);
+        if (s->tints) key = gn_key_tint(&key);
         if (s->group) key = gn_key_additive(frame, &key, s->group, s->opts);
         uint32_t program = gn_frame_program(frame, &key);
         GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,
@@ -116,6 +131,7 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
     instance->surface[1] = m->metalness;
     instance->surface[2] = m->occlusion_strength;
     instance->surface[3] = in_parts ? GN_OPAQUE_ALPHA : m->alpha_cutoff;
+    if (s->casts) set_transmitted(m, instance);
     if (m->shadow_catcher) { /* centre of its square, 1 / half its side, 1 / side of the occluded
                                 part */
         vec4 *world = pose->items[item].world_from_item;

@@ -40,6 +40,9 @@
     X(ENVIRONMENT_DIFFUSE, "environment-diffuse") /* in place of the hemispheres */                \
     X(ENVIRONMENT_SCALED, "environment-scaled")   /* by a factor other than 1 */                   \
     X(ENVIRONMENT_TURNED, "environment-turned")                                                    \
+    X(COAT, "coat")                 /* a clear coat over the rest */                               \
+    X(TRANSMISSION, "transmission") /* shows what is behind. LIT with UNLIT: its tint alone */     \
+    X(TINTED, "tinted") /* LIT: in colour, which a draw before has multiplied in; this one adds */ \
     X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */
 
 enum gn_feature_bit {

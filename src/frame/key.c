@@ -12,7 +12,7 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
     return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
 }
 
-/* The features that an item's alpha depends on. */
+/* The features that the alpha of a masked or blended item depends on. */
 static uint64_t cut_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_material *m = &scene->materials[item->material];
     uint64_t features = GN_FEATURE(ALPHA_MASK) | texture_features(m, GN_TEXTURE_BASE);
@@ -43,6 +43,13 @@ static uint64_t environment_features(const struct gn_frame *frame, const struct 
     return features;
 }
 
+bool gn_key_is_tinted(const struct gn_scene *scene, const struct gn_item *item) {
+    const struct gn_material *m = &scene->materials[item->material];
+    return gn_material_is_tinted(m) ||
+           (gn_material_is_transmissive(m) &&
+            gn_geometry_has(&scene->geometries[item->geometry], GN_ATTRIBUTE_COLOR));
+}
+
 static uint64_t color_features(const struct gn_frame *frame, const struct gn_item *item) {
     const struct gn_scene *scene = frame->scene;
     const struct gn_material *m = &scene->materials[item->material];
@@ -55,6 +62,8 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     const uint64_t attributes = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
     features |= attributes << GN_FEATURE_FIRST_ATTRIBUTE;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
+    if (gn_material_is_transmissive(m)) features |= GN_FEATURE(TRANSMISSION);
+    if (gn_key_is_tinted(scene, item)) features |= GN_FEATURE(TINTED);
     if (!frame->plan.tones_sum) features |= gn_frame_tone_feature(frame);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
         features |= GN_FEATURE(ENCODE_SRGB);
@@ -68,6 +77,7 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
         if (frame->shadow_specular) features |= GN_FEATURE(SHADOW_SPECULAR);
     }
     if (gn_material_is_metal(m)) features |= GN_FEATURE(METAL);
+    if (gn_material_is_coated(m)) features |= GN_FEATURE(COAT);
     if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
     features |= environment_features(frame, m);
     if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0 &&
@@ -80,7 +90,7 @@ static enum gn_receiver receiver_of(const struct gn_frame *frame, const struct g
                                     enum gn_aov aov) {
     if (!item->receives && aov != GN_AOV_VISIBILITY) return GN_RECEIVES_NOTHING;
     /* What is blended is drawn with what else is: on the first plane. */
-    const bool blended = frame->scene->materials[item->material].alpha == GN_ALPHA_BLEND;
+    const bool blended = gn_material_is_blended(&frame->scene->materials[item->material]);
     if (item->plane > (blended ? 1 : frame->plane.shown)) return GN_RECEIVES_MAPS;
     for (uint32_t i = 0; item->plane && i < frame->light_count; i++)
         if (gn_techniques[frame->lights[i].technique].on_plane) return GN_RECEIVES_ALL;
@@ -153,11 +163,30 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
 }
 
 void gn_key_take_part(bool rest, struct gn_program_key *key) {
-    if (!(key->features & GN_FEATURE(ALPHA_BLEND))) return;
+    if (!(key->features & (GN_FEATURE(ALPHA_BLEND) | GN_FEATURE(TRANSMISSION)))) return;
     if (rest)
         key->features |= GN_FEATURE(BLENDED_REST);
-    else
+    else if (key->features & GN_FEATURE(TRANSMISSION)) {
+        key->features &= ~(GN_FEATURE(TRANSMISSION) | GN_FEATURE(TINTED));
+        key->features |= GN_FEATURE(ALPHA_MASK);
+    } else
         key->features ^= GN_FEATURE(ALPHA_BLEND) | GN_FEATURE(ALPHA_MASK);
+}
+
+struct gn_program_key gn_key_tint(const struct gn_program_key *lit) {
+    uint64_t lost = GN_FEATURE(TONE_NEUTRAL) | GN_FEATURE(TONE_ACES) | GN_FEATURE(TONE_AGX) |
+                    GN_FEATURE(FLAT_CONSTANTS) | GN_FEATURE(SHADOW_SPECULAR) |
+                    GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
+                    GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
+                    GN_FEATURE(ENVIRONMENT_TURNED);
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+        if (gn_texture_slots[slot].shading >= GN_SHADING_EMISSION)
+            lost |= texture_bit(slot) | uv1_bit(slot);
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = lit->kind;
+    key.features = (lit->features & ~lost) | GN_FEATURE(UNLIT);
+    return key;
 }
 
 struct gn_program_key gn_key_additive(const struct gn_frame *frame,
@@ -187,8 +216,12 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                                        : GN_PROGRAM_DISTANCE;
     const struct gn_item *what = &frame->scene->items[item];
     key.features = alpha_features(frame->scene, what);
-    if (frame->scene->materials[what->material].alpha == GN_ALPHA_BLEND)
-        key.features = cut_features(frame->scene, what) | GN_FEATURE(ALPHA_DITHER);
+    const struct gn_material *m = &frame->scene->materials[what->material];
+    if (gn_material_is_blended(m)) {
+        key.features =
+            m->alpha == GN_ALPHA_OPAQUE ? GN_FEATURE(ALPHA_MASK) : cut_features(frame->scene, what);
+        key.features |= GN_FEATURE(ALPHA_DITHER) | texture_features(m, GN_TEXTURE_TRANSMISSION);
+    }
     if (key.kind != GN_PROGRAM_DISTANCE) return key;
     key.encoding = (uint8_t)view->encoding;
     if (view->perspective && !gn_techniques[view->technique].on_plane)

@@ -16,7 +16,7 @@ void gn_frame_learn_scene(struct gn_frame *frame) {
         for (uint32_t i = 0; i < scene->item_count; i++)
             frame->plane.blended |=
                 scene->items[i].plane && scene->items[i].receives &&
-                scene->materials[scene->items[i].material].alpha == GN_ALPHA_BLEND;
+                gn_material_is_blended(&scene->materials[scene->items[i].material]);
         frame->plane.count = 1;
         for (uint32_t i = 0; i < scene->item_count; i++)
             if (scene->items[i].plane > frame->plane.count)

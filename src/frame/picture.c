@@ -23,6 +23,18 @@ static int by_depth(const void *a, const void *b) {
     return x->item < y->item ? -1 : 1;
 }
 
+/* What is behind one side of an item, or both, in the colour that it transmits. */
+static void tint_item(struct gn_frame *frame, const struct gn_pose *pose, struct gn_selection seen,
+                      uint32_t item) {
+    bool open = false;
+    struct gn_pass *tint = gn_frame_lit_pass(frame, "tint", 0);
+    tint->picture.blend = GN_BLEND_TINT;
+    tint->depth_write = false;
+    seen.tints = true;
+    gn_frame_draw_item(frame, pose, &seen, item, &open);
+    gn_frame_end_pass(frame);
+}
+
 /* One side of an item, or both at once, with the light of all groups. open: whether the last draw
  * is one of the same batch, in a pass that is still open. */
 static void blend_item(struct gn_frame *frame, const struct gn_pose *pose,
@@ -68,6 +80,11 @@ static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
         for (int side = 0; side <= two_sided; side++) {
             struct gn_selection seen = {.opts = opts, .blends = true};
             if (two_sided) seen.cull = side ? GN_CULL_BACK : GN_CULL_FRONT;
+            if (gn_key_is_tinted(frame->scene, what)) {
+                if (in_pass) gn_frame_end_pass(frame);
+                in_pass = open = false;
+                tint_item(frame, pose, seen, item);
+            }
             if (!in_pass) begin_blend_pass(frame);
             blend_item(frame, pose, &seen, item, &open);
             in_pass = open;

@@ -94,6 +94,7 @@ enum gn_blend {
     GN_BLEND_OFF,
     GN_BLEND_ALPHA,    /* premultiplied: ONE, ONE_MINUS_SRC_ALPHA */
     GN_BLEND_ADD,      /* the same with an alpha of 0: adds, and leaves the picture's alpha */
+    GN_BLEND_TINT,     /* multiplies: ZERO, SRC_COLOR; alpha as GN_BLEND_ALPHA has it */
     GN_BLEND_SUBTRACT, /* of a mask, which holds less then; draws where the depth is LESS */
 };
 

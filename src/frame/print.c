@@ -135,6 +135,7 @@ static void print_picture(const struct gn_plan *plan, const struct gn_pass *pass
     for (uint32_t i = 0; i < p->slide_count; i++)
         fprintf(to, ", slide %u: texture %u", i, p->slides[i]);
     if (p->blend == GN_BLEND_ALPHA) fprintf(to, ", blend");
+    if (p->blend == GN_BLEND_TINT) fprintf(to, ", multiplies");
     if (p->plane_count > 0 &&
         p->first_on_plane != p->first_shadow + p->shadow_count - p->plane_count)
         fprintf(to, ", planar maps from %u", p->first_on_plane);

@@ -146,6 +146,7 @@ struct gn_selection {
     bool backs;                         /* only the far sides of what casts by its middle */
     const struct gn_light_group *group; /* added: draws items in its reach; NULL: the first */
     enum gn_part part;                  /* not of a shadow pass */
+    bool tints;                         /* draws the tint of what transmits colours */
     bool blends;                        /* of blended items: what is not opaque */
     enum gn_cull cull;                  /* of double-sided items: NONE: both sides */
     uint32_t plane; /* the same: only receivers of planar shadows on it; 0: all but those on further
@@ -315,6 +316,13 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
 void gn_key_add_middle(const struct gn_shadow_view *view, struct gn_program_key *key);
 /* Of a blended item with opaque texels: these alone, as if it were masked, or the rest. */
 void gn_key_take_part(bool rest, struct gn_program_key *key);
+/* Whether an item transmits colours. Each channel needs a factor of its own on what is behind,
+ * which blending has no place for beside reflections (two outputs a target are not in ES 3.0), so
+ * such an item is drawn twice: its tint multiplies, then its own light adds. All others take one
+ * draw. */
+bool gn_key_is_tinted(const struct gn_scene *scene, const struct gn_item *item);
+/* The program of the first of them, by that of the second. */
+struct gn_program_key gn_key_tint(const struct gn_program_key *lit);
 /* The program that adds a group's light to what `lit` draws. */
 struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,

@@ -3,6 +3,8 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
+_Static_assert(GN_MATERIAL_TEXTURES_MAX + 2 * GN_SHADOWS_MAX + 1 <= GN_SAMPLERS_MAX, "samplers");
+
 void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *opts,
                             struct gn_warnings *warnings) {
     uint32_t both = 0; /* lights with two samplers for their shadow: those of a pass at most */

@@ -97,6 +97,13 @@ void gn_gl_set_depth(struct gn_gl *gl, bool test, bool write) {
 void gn_gl_set_blend(struct gn_gl *gl, enum gn_blend blend) {
     const bool subtracts = blend == GN_BLEND_SUBTRACT;
     enable_cached(gl, GL_BLEND, &gl->state.blend_on, blend != GN_BLEND_OFF);
+    const bool tints = blend == GN_BLEND_TINT;
+    if (blend != GN_BLEND_OFF && gl->state.tints != tints) {
+        gl->state.tints = tints;
+        GL(gl, BlendFuncSeparate)
+        (tints ? GL_ZERO : GL_ONE, tints ? GL_SRC_COLOR : GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
+         GL_ONE_MINUS_SRC_ALPHA);
+    }
     if (gl->state.subtracts == subtracts) return;
     gl->state.subtracts = subtracts;
     GL(gl, BlendEquation)(subtracts ? GL_FUNC_REVERSE_SUBTRACT : GL_FUNC_ADD);

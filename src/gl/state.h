@@ -35,8 +35,8 @@ struct gn_gl_rect {
 struct gn_gl_state {
     GLuint framebuffer, program, vertex_array, array_buffer;
     struct gn_gl_rect viewport, scissor;
-    bool scissor_on, depth_on, depth_write, blend_on, subtracts, cull_on, mirrored, stencil_on,
-        color_write;
+    bool scissor_on, depth_on, depth_write, blend_on, subtracts, tints, cull_on, mirrored,
+        stencil_on, color_write;
     struct gn_stencil stencil;
     uint8_t cull; /* gn_cull, when on */
     GLuint unit;  /* the active one */

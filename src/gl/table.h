@@ -22,6 +22,7 @@
     X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                                                   \
     X(PFNGLBLENDEQUATIONPROC, BlendEquation)                                                       \
     X(PFNGLBLENDFUNCPROC, BlendFunc)                                                               \
+    X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                               \
     X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer)                                                   \
     X(PFNGLBUFFERDATAPROC, BufferData)                                                             \
     X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                       \

@@ -152,6 +152,10 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
         float *factors = s->uv[s->uv_count][GN_GL_TRANSFORMS];
         memcpy(factors, scene->materials[i].f0, sizeof(vec3));
         factors[3] = scene->materials[i].lightmap_intensity;
+        factors[4] = scene->materials[i].coat;
+        factors[5] = scene->materials[i].coat_roughness;
+        factors[6] = scene->materials[i].transmission;
+        factors[7] = 0.0f;
         uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
         while (same < s->uv_count && memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0)
             same++;

@@ -9,7 +9,7 @@
 /* The properties of a material that select its program and state, as words to compare. */
 enum {
     SLOT_WORDS = 2 + 6,
-    FLAG_WORDS = 13,
+    FLAG_WORDS = 17,
     LOOK_WORDS = GN_TEXTURE_SLOT_COUNT * SLOT_WORDS + FLAG_WORDS
 };
 struct look {
@@ -54,6 +54,10 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
         if (m->textures[GN_TEXTURE_LIGHTMAP].texture >= 0)
             memcpy(to, &m->lightmap_intensity, sizeof m->lightmap_intensity);
         to++;
+        if (gn_material_is_coated(m)) memcpy(to, &m->coat, 2 * sizeof m->coat); /* and roughness */
+        memcpy(to + 2, &m->transmission, sizeof m->transmission);
+        to[3] = gn_material_is_tinted(m);
+        to += 4;
         assert(to == looks[i].word + LOOK_WORDS);
     }
     qsort(looks, count, sizeof *looks, compare_looks);
@@ -88,12 +92,14 @@ bool gn_scene_batch(struct gn_gltf *g) {
         uint32_t flags = (uint32_t)item->casts | (uint32_t)item->receives << 1 |
                          (uint32_t)item->cast_faces << 2 | (uint32_t)item->plane << 8 |
                          (uint32_t)item->casts_alpha << 16;
-        keys[i] = (struct item_key){.part = {[KEY_ALPHA] = scene->materials[item->material].alpha,
-                                             [KEY_LOOK] = looks[item->material],
-                                             [KEY_GEOMETRY] = item->geometry,
-                                             [KEY_FLAGS] = flags,
-                                             [KEY_ORDER] = i},
-                                    .item = *item};
+        const struct gn_material *m = &scene->materials[item->material];
+        keys[i] = (struct item_key){
+            .part = {[KEY_ALPHA] = gn_material_is_blended(m) ? GN_ALPHA_BLEND : m->alpha,
+                     [KEY_LOOK] = looks[item->material],
+                     [KEY_GEOMETRY] = item->geometry,
+                     [KEY_FLAGS] = flags,
+                     [KEY_ORDER] = i},
+            .item = *item};
     }
     qsort(keys, scene->item_count, sizeof *keys, compare_items);
     for (uint32_t i = 0; i < scene->item_count; i++) {

@@ -83,7 +83,7 @@ static void fill_columns(struct columns *c, const struct gn_scene *scene,
         const struct gn_item *item = &scene->items[i];
         const struct gn_geometry *geometry = &scene->geometries[item->geometry];
         if (!pose->items[i].visible || !item->casts || pose->node_moves[item->node]) continue;
-        if (scene->materials[item->material].alpha == GN_ALPHA_BLEND) continue;
+        if (gn_material_is_clear(&scene->materials[item->material])) continue;
         const uint32_t *index = scene->buffers.indices + geometry->first_index;
         for (uint32_t t = 0; t + 2 < geometry->index_count; t += 3) {
             if (--c->work_left < 0) return;

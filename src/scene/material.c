@@ -11,12 +11,34 @@ const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
 
 bool gn_material_is_metal(const struct gn_material *m) { return m->metalness > 0.0f; }
 
-bool gn_material_needs_reflections(const struct gn_material *m) {
-    return !m->unlit && gn_material_is_metal(m);
+bool gn_material_has_opaque_texels(const struct gn_material *m) {
+    if (gn_material_is_transmissive(m))
+        return m->alpha == GN_ALPHA_OPAQUE && m->textures[GN_TEXTURE_TRANSMISSION].texture >= 0;
+    return m->alpha == GN_ALPHA_BLEND && !m->shadow_catcher && m->base_color[3] >= GN_OPAQUE_ALPHA;
 }
 
-bool gn_material_has_opaque_texels(const struct gn_material *m) {
-    return m->alpha == GN_ALPHA_BLEND && !m->shadow_catcher && m->base_color[3] >= GN_OPAQUE_ALPHA;
+bool gn_material_is_coated(const struct gn_material *m) { return m->coat > 0.0f; }
+
+bool gn_material_is_transmissive(const struct gn_material *m) { return m->transmission > 0.0f; }
+
+bool gn_material_is_blended(const struct gn_material *m) {
+    return m->alpha == GN_ALPHA_BLEND || gn_material_is_transmissive(m);
+}
+
+bool gn_material_is_clear(const struct gn_material *m) {
+    return m->alpha == GN_ALPHA_BLEND ||
+           (m->transmission > 0.5f && m->textures[GN_TEXTURE_TRANSMISSION].texture < 0);
+}
+
+bool gn_material_is_tinted(const struct gn_material *m) {
+    return gn_material_is_transmissive(m) &&
+           (m->textures[GN_TEXTURE_BASE].texture >= 0 || m->base_color[0] != m->base_color[1] ||
+            m->base_color[1] != m->base_color[2]);
+}
+
+bool gn_material_needs_reflections(const struct gn_material *m) {
+    return !m->unlit &&
+           (gn_material_is_metal(m) || gn_material_is_coated(m) || gn_material_is_transmissive(m));
 }
 
 bool gn_material_has_f0(const struct gn_material *m) {
@@ -24,7 +46,8 @@ bool gn_material_has_f0(const struct gn_material *m) {
 }
 
 bool gn_material_is_specular(const struct gn_material *m) {
-    if (gn_material_is_metal(m)) return true;
+    if (gn_material_is_metal(m) || gn_material_is_coated(m) || gn_material_is_transmissive(m))
+        return true;
     if (m->f0[0] == 0 && m->f0[1] == 0 && m->f0[2] == 0) return false;
     return m->roughness < 1.0f || m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
 }
@@ -37,6 +60,8 @@ bool gn_material_reads(const struct gn_material *m, enum gn_texture_slot slot) {
     switch (gn_texture_slots[slot].shading) {
     case GN_SHADING_COLOR: return true;
     case GN_SHADING_SPECULAR: return !m->unlit && gn_material_is_specular(m);
+    case GN_SHADING_COAT: return !m->unlit && gn_material_is_coated(m);
+    case GN_SHADING_TRANSMISSION: return !m->unlit && gn_material_is_transmissive(m);
     case GN_SHADING_EMISSION: return !m->unlit && gn_material_is_emissive(m);
     case GN_SHADING_LIGHT:
     case GN_SHADING_AMBIENT: return !m->unlit;

@@ -7,6 +7,9 @@
 
 #include <stdbool.h>
 
+#define GN_CLEARCOAT "extensions.KHR_materials_clearcoat"
+#define GN_TRANSMITS "extensions.KHR_materials_transmission"
+
 /* X(NAME, name, printed name, object of the glTF material or "", texture in it, texels, read for)
  */
 #define GN_TEXTURE_SLOTS(X)                                                                        \
@@ -16,7 +19,16 @@
     X(EMISSIVE, emissive, "emissive-texture", "", "emissiveTexture", SRGB, EMISSION)               \
     X(OCCLUSION, occlusion, "occlusion", "", "occlusionTexture", LINEAR, AMBIENT) /* R */          \
     X(NORMAL, normal, "normal-map", "", "normalTexture", LINEAR, LIGHT) /* with vertex tangents */ \
-    X(LIGHTMAP, lightmap, "light-map", "", "extensions.MOZ_lightmap", SRGB, AMBIENT)
+    X(LIGHTMAP, lightmap, "light-map", "", "extensions.MOZ_lightmap", SRGB, AMBIENT)               \
+    X(COAT, coat, "coat-texture", GN_CLEARCOAT, "clearcoatTexture", LINEAR, COAT) /* R: factor */  \
+    X(TRANSMISSION, transmission, "transmission-texture", GN_TRANSMITS, "transmissionTexture",     \
+      LINEAR, TRANSMISSION) /* R: factor */                                                        \
+    X(COAT_ROUGHNESS, coat_roughness, "coat-roughness", GN_CLEARCOAT, "clearcoatRoughnessTexture", \
+      LINEAR, COAT) /* G */
+
+/* Of one material: with two samplers for each of four lights and the environment these fill the 16
+ * that ES 3.0 promises. The last ones of the table are left out with a warning. */
+enum { GN_MATERIAL_TEXTURES_MAX = 7 };
 
 enum gn_texture_slot {
 #define GN_X(NAME, ...) GN_TEXTURE_##NAME,
@@ -32,13 +44,16 @@ enum gn_shading {
     GN_SHADING_COLOR,    /* everything; of casters with holes, its alpha */
     GN_SHADING_LIGHT,    /* lit materials */
     GN_SHADING_SPECULAR, /* lit materials with a highlight */
+    GN_SHADING_COAT,
+    GN_SHADING_TRANSMISSION,
     GN_SHADING_EMISSION, /* lit materials that emit; not where only light is added */
     GN_SHADING_AMBIENT,  /* lit materials; not where only light is added */
 };
 
 struct gn_texture_slot_row {
     const char *glsl, *name;  /* SLOT_BASE, BASE_UV1 ..; u_texture_base, v_uv_base */
-    const char *parent, *key; /* in the JSON of a material; parent "": the material itself */
+    const char *parent, *key; /* in the JSON of a material; parent "": the material itself, or
+                                 "extensions.NAME" */
     enum gn_texels texels;
     enum gn_shading shading;
 };
@@ -46,10 +61,20 @@ extern const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT];
 
 struct gn_material;
 bool gn_material_is_specular(const struct gn_material *material); /* has a highlight, if lit */
-/* Blended, but opaque where its texture is, as most are that call themselves blended. */
+/* Blended, but opaque where its texture is, as most are that call themselves blended; or opaque
+ * where its transmission texture is 0. */
 bool gn_material_has_opaque_texels(const struct gn_material *material);
 #define GN_OPAQUE_ALPHA 0.99f
 bool gn_material_is_metal(const struct gn_material *material); /* in places */
+/* Clear coat and transmission, in places; neither of unlit materials. */
+bool gn_material_is_coated(const struct gn_material *material);
+bool gn_material_is_transmissive(const struct gn_material *material);
+/* What lies behind it shows: by alpha, or by transmission. Drawn after all that is opaque. */
+bool gn_material_is_blended(const struct gn_material *material);
+/* Mostly clear, so that it casts no shadow unless gnomon_cast_alpha asks for one. */
+bool gn_material_is_clear(const struct gn_material *material);
+/* What it transmits has another colour in other places or channels, vertex colours apart. */
+bool gn_material_is_tinted(const struct gn_material *material);
 /* Whether it looks wrong without an environment: most of what one sees of it are reflections. */
 bool gn_material_needs_reflections(const struct gn_material *material);
 bool gn_material_is_emissive(const struct gn_material *material);

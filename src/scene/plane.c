@@ -185,7 +185,7 @@ void gn_scene_find_planes(struct gn_gltf *g, const struct gn_pose *pose) {
             apart = !lie_together(pose, chosen[k], large[i].item);
         /* a further one takes a pass, and what is blended is drawn with the first */
         if (i > 0 && (!apart || large[i].area_m2 < FURTHER_SHARE * large[0].area_m2 ||
-                      scene->materials[item->material].alpha == GN_ALPHA_BLEND ||
+                      gn_material_is_blended(&scene->materials[item->material]) ||
                       !catches(g, pose, large[i].item, large, count)))
             continue;
         chosen[planes++] = large[i].item;

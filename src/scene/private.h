@@ -53,9 +53,8 @@ struct gn_accessor {
     X(BASISU, "KTX2 pictures", NULL)                                                               \
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
     X(POINTERS, "animation pointers", NULL)                                                        \
-    X(CLEARCOAT, "clear coat", "KHR_materials_clearcoat")                                          \
-    X(TRANSMISSION, "transmission", "KHR_materials_transmission")                                  \
-    X(VOLUME, "volume", "KHR_materials_volume")                                                    \
+    X(COAT_NORMALS, "normal maps of clear coat", NULL)                                             \
+    X(VOLUME, "refraction in volumes", "KHR_materials_volume")                                     \
     X(SHEEN, "sheen", "KHR_materials_sheen")                                                       \
     X(IRIDESCENCE, "iridescence", "KHR_materials_iridescence")                                     \
     X(ANISOTROPY, "anisotropy", "KHR_materials_anisotropy")                                        \

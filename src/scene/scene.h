@@ -56,7 +56,9 @@ struct gn_material {
     float roughness, metalness, occlusion_strength, alpha_cutoff;
     float normal_scale; /* of x and y of the normal map */
     float lightmap_intensity;
-    vec3 f0; /* reflectance at normal incidence of what is no metal; GN_F0 */
+    float coat, coat_roughness; /* KHR_materials_clearcoat: how much of it, 0 to 1; 0 if unlit */
+    float transmission;         /* KHR_materials_transmission: 0 to 1; 0 if unlit */
+    vec3 f0;                    /* reflectance at normal incidence of what is no metal; GN_F0 */
     enum gn_alpha alpha;
     bool double_sided, unlit;
     bool shadow_catcher; /* unseen: black, its alpha the share of light that shadows take from it */

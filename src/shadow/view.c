@@ -10,7 +10,7 @@
 
 bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
     const struct gn_item *it = &scene->items[item];
-    return it->casts && (scene->materials[it->material].alpha != GN_ALPHA_BLEND || it->casts_alpha);
+    return it->casts && (!gn_material_is_clear(&scene->materials[it->material]) || it->casts_alpha);
 }
 
 bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,

@@ -30,7 +30,7 @@ static void normalise(double v[3]) {
 static uint32_t item_flags(const struct gn_scene *scene, const struct gn_item *item,
                            bool mirrored) {
     const struct gn_material *material = &scene->materials[item->material];
-    if (material->alpha == GN_ALPHA_BLEND && !material->shadow_catcher) return 0;
+    if (gn_material_is_blended(material) && !material->shadow_catcher) return 0;
     return SEEN | (material->double_sided ? SEEN_FROM_BEHIND : 0) | (item->casts ? CASTS : 0) |
            (material->alpha == GN_ALPHA_MASK ? MASKED : 0) | (mirrored ? MIRRORED : 0);
 }

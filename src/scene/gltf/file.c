@@ -98,11 +98,18 @@ bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
 /* ---- versions and extensions ---- */
 
 static const char *const SUPPORTED[] = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",    "KHR_mesh_quantization",
-    "KHR_texture_transform",  "EXT_mesh_gpu_instancing",
-    "MOZ_lightmap",           "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_pbrSpecularGlossiness",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",
+    "MOZ_lightmap",
+    "KHR_materials_ior",
+    "KHR_materials_specular",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_clearcoat",
+    "KHR_materials_transmission",
     "EXT_texture_webp",
 };
 

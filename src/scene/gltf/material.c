@@ -33,7 +33,10 @@ static struct gn_at texture_at(struct gn_gltf *g, const struct gn_at *material,
                                enum gn_texture_slot slot, struct gn_at *parent) {
     const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
     if (strncmp(row->key, "extensions.", 11) == 0) return gn_at_extension(g, material, row->key);
-    *parent = *row->parent ? gn_at_object(g, material, row->parent) : *material;
+    if (strncmp(row->parent, "extensions.", 11) == 0)
+        *parent = gn_at_extension(g, material, row->parent);
+    else
+        *parent = *row->parent ? gn_at_object(g, material, row->parent) : *material;
     return gn_at_object(g, parent, row->key);
 }
 
@@ -151,6 +154,39 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
     for (int k = 0; k < 3; k++) m->base_color[k] *= 1 - most;
 }
 
+/* KHR_materials_clearcoat and _transmission. Of a volume the colour alone, once over its thickness
+ * at most: where that comes from a texture, and how long the way of the light is, is unknown. */
+static void read_coat_and_transmission(struct gn_gltf *g, const struct gn_at *at, bool used,
+                                       struct gn_material *m) {
+    struct gn_at coat = gn_at_extension(g, at, GN_CLEARCOAT);
+    struct gn_at transmits = gn_at_extension(g, at, GN_TRANSMITS);
+    struct gn_at volume = gn_at_extension(g, at, "extensions.KHR_materials_volume");
+    float color[3] = {1, 1, 1};
+    m->coat = clamp(gn_at_float(g, &coat, "clearcoatFactor", 0), 0, 1);
+    m->coat_roughness = clamp(gn_at_float(g, &coat, "clearcoatRoughnessFactor", 0), 0, 1);
+    m->transmission = clamp(gn_at_float(g, &transmits, "transmissionFactor", 0), 0, 1);
+    const float thickness = gn_at_float(g, &volume, "thicknessFactor", 0);
+    const float distance = gn_at_float(g, &volume, "attenuationDistance", INFINITY);
+    gn_at_floats(g, &volume, "attenuationColor", 3, color);
+    if (m->unlit) m->coat = m->transmission = 0;
+    const float way = thickness > 0 && distance > 0 ? clamp(thickness / distance, 0, 1) : 0;
+    for (int k = 0; k < 3; k++)
+        m->base_color[k] *= glm_lerp(1, powf(clamp(color[k], 0, 1), way), m->transmission);
+    if (used && m->coat > 0 && gn_at_any(&coat, "clearcoatNormalTexture").json)
+        g->is_missing[GN_MISSING_COAT_NORMALS] = true;
+}
+
+/* Leaves out the last ones of too many. */
+static void limit_textures(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
+    int count = 0;
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        if (m->textures[slot].texture < 0 || ++count <= GN_MATERIAL_TEXTURES_MAX) continue;
+        gn_gltf_warn(g, at, "more than %d textures; shown without the %s", GN_MATERIAL_TEXTURES_MAX,
+                     gn_texture_slots[slot].key);
+        m->textures[slot].texture = -1;
+    }
+}
+
 static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
                           const uint64_t sets[GN_UV_SETS], struct gn_material *m) {
     static const char *const alphas[] = {
@@ -181,9 +217,13 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
 
     struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
     m->occlusion_strength = clamp(gn_at_float(g, &occlusion, "strength", 1), 0, 1);
+    read_coat_and_transmission(g, at, used, m);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         struct gn_at parent, texture = texture_at(g, at, slot, &parent);
-        read_texture(g, &texture, used, sets, &m->textures[slot]);
+        const bool needless = (slot == GN_TEXTURE_TRANSMISSION || slot == GN_TEXTURE_COAT ||
+                               slot == GN_TEXTURE_COAT_ROUGHNESS) &&
+                              !gn_material_reads(m, slot);
+        read_texture(g, &texture, used && !needless, sets, &m->textures[slot]);
     }
     struct gn_at gloss = gn_at_extension(g, at, GLOSSINESS);
     if (gloss.json)
@@ -195,6 +235,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
     struct gn_at baked = gn_at_extension(g, at, "extensions.MOZ_lightmap");
     m->lightmap_intensity = clamp(gn_at_float(g, &baked, "intensity", 1), 0, 1e9f);
     if (used) gn_extras_material(g, at, find_uv_set(sets, 1), m);
+    limit_textures(g, at, m);
     struct gn_at normal = gn_at_object(g, at, "normalTexture");
     m->normal_scale = clamp(gn_at_float(g, &normal, "scale", 1), -1e4f, 1e4f);
 }
