@@ -20,9 +20,9 @@
     X(OCCLUSION, occlusion, "occlusion", "", "occlusionTexture", LINEAR, AMBIENT) /* R */          \
     X(NORMAL, normal, "normal-map", "", "normalTexture", LINEAR, LIGHT) /* with vertex tangents */ \
     X(LIGHTMAP, lightmap, "light-map", "", "extensions.MOZ_lightmap", SRGB, AMBIENT)               \
-    X(COAT, coat, "coat-texture", GN_CLEARCOAT, "clearcoatTexture", LINEAR, COAT) /* R: factor */  \
     X(TRANSMISSION, transmission, "transmission-texture", GN_TRANSMITS, "transmissionTexture",     \
-      LINEAR, TRANSMISSION) /* R: factor */                                                        \
+      LINEAR, TRANSMISSION)                                                       /* R: factor */  \
+    X(COAT, coat, "coat-texture", GN_CLEARCOAT, "clearcoatTexture", LINEAR, COAT) /* R: factor */  \
     X(COAT_ROUGHNESS, coat_roughness, "coat-roughness", GN_CLEARCOAT, "clearcoatRoughnessTexture", \
       LINEAR, COAT) /* G */
 

@@ -80,12 +80,14 @@ static void test_what_is_missing_is_named(void **state) {
     (void)state;
     struct gn_scene *scene = load_material(
         EXTENSIONS("'KHR_materials_sheen':{},'KHR_materials_volume':{},'KHR_materials_clearcoat':"
-                   "{},'EXT_unknown':{},'KHR_materials_specular':{'specularTexture':{'index':0}}"));
-    assert_string_equal(scene->missing,
-                        "clear coat, volume, sheen, textures of KHR_materials_specular");
+                   "{'clearcoatFactor':1,'clearcoatNormalTexture':{'index':0}},'EXT_unknown':{},"
+                   "'KHR_materials_specular':{'specularTexture':{'index':0}}"));
+    assert_string_equal(scene->missing, "normal maps of clear coat, refraction in volumes, sheen, "
+                                        "textures of KHR_materials_specular");
     assert_int_equal(warnings.count, 1);
-    assert_string_equal(warnings.text[0], "t: shown without clear coat, volume, sheen, textures of "
-                                          "KHR_materials_specular: not supported yet");
+    assert_string_equal(warnings.text[0],
+                        "t: shown without normal maps of clear coat, refraction in volumes, sheen, "
+                        "textures of KHR_materials_specular: not supported yet");
     gn_scene_destroy(scene);
     scene = load_material("");
     assert_string_equal(scene->missing, "");
@@ -111,6 +113,88 @@ static void refuse(const char *material, const char *message) {
     assert_string_equal(err.text, message);
 }
 
+static void test_clear_coat(void **state) {
+    (void)state;
+    struct gn_scene *scene =
+        load_material(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatFactor':0.75,"
+                                 "'clearcoatRoughnessFactor':0.25}"));
+    const struct gn_material *m = &scene->materials[0];
+    assert_int_equal(warnings.count, 0);
+    assert_near(m->coat, .75f);
+    assert_near(m->coat_roughness, .25f);
+    assert_true(gn_material_is_coated(m) && gn_material_is_specular(m));
+    assert_true(gn_material_needs_reflections(m));
+    assert_false(gn_material_is_blended(m));
+    gn_scene_destroy(scene);
+    scene = load_material(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatFactor':7,"
+                                     "'clearcoatRoughnessFactor':-1e30}"));
+    assert_near(scene->materials[0].coat, 1);
+    assert_near(scene->materials[0].coat_roughness, 0);
+    gn_scene_destroy(scene);
+    scene = load_material(
+        "'pbrMetallicRoughness':{'metallicFactor':0}," EXTENSIONS("'KHR_materials_clearcoat':{}"));
+    assert_false(gn_material_is_coated(&scene->materials[0])); /* 0 where nothing is said */
+    assert_false(gn_material_needs_reflections(&scene->materials[0]));
+    gn_scene_destroy(scene);
+}
+
+#define GLASS(factor) "'KHR_materials_transmission':{'transmissionFactor':" factor "}"
+
+static void test_transmission(void **state) {
+    (void)state;
+    struct gn_scene *scene = load_material(EXTENSIONS(GLASS("0.8")));
+    const struct gn_material *m = &scene->materials[0];
+    assert_int_equal(warnings.count, 0);
+    assert_near(m->transmission, .8f);
+    assert_int_equal(m->alpha, GN_ALPHA_OPAQUE);
+    assert_true(gn_material_is_blended(m) && gn_material_is_clear(m));
+    assert_false(gn_material_is_tinted(m) || gn_material_has_opaque_texels(m));
+    gn_scene_destroy(scene);
+    scene = load_material(
+        "'pbrMetallicRoughness':{'baseColorFactor':[1,0.5,0.5,1]}," EXTENSIONS(GLASS("0.4")));
+    m = &scene->materials[0];
+    assert_true(gn_material_is_blended(m) && gn_material_is_tinted(m));
+    assert_false(gn_material_is_clear(m)); /* less than half */
+    gn_scene_destroy(scene);
+    scene = load_material(EXTENSIONS(GLASS("-1")));
+    assert_false(gn_material_is_blended(&scene->materials[0]));
+    gn_scene_destroy(scene);
+    scene = load_material(EXTENSIONS(GLASS("1") ",'KHR_materials_unlit':{},"
+                                                "'KHR_materials_clearcoat':{'clearcoatFactor':1}"));
+    m = &scene->materials[0];
+    assert_false(gn_material_is_transmissive(m) || gn_material_is_coated(m));
+    gn_scene_destroy(scene);
+}
+
+static void assert_volume(const char *volume, const char *transmission, float r, float g) {
+    char text[400];
+    snprintf(text, sizeof text,
+             "'pbrMetallicRoughness':{'baseColorFactor':[0.5,1,1,1]},'extensions':{"
+             "'KHR_materials_volume':{%s},'KHR_materials_transmission':{'transmissionFactor':%s}}",
+             volume, transmission);
+    struct gn_scene *scene = load_material(text);
+    assert_near(scene->materials[0].base_color[0], r);
+    assert_near(scene->materials[0].base_color[1], g);
+    assert_string_equal(scene->missing, "refraction in volumes");
+    gn_scene_destroy(scene);
+}
+
+static void test_a_volume_tints(void **state) {
+    (void)state;
+#define COLOR "'attenuationColor':[1,0.25,1],'attenuationDistance':2,'thicknessFactor':"
+    assert_volume(COLOR "1", "1", .5f, .5f); /* half of the distance: its root */
+    assert_volume(COLOR "2", "1", .5f, .25f);
+    assert_volume(COLOR "1000", "1", .5f, .25f); /* not more than once */
+    assert_volume(COLOR "1", "0.5", .5f, .75f);  /* what is not transmitted keeps its colour */
+    assert_volume(COLOR "0", "1", .5f, 1);
+    assert_volume("'attenuationColor':[0,0,0],'thicknessFactor':3", "1", .5f,
+                  1); /* infinitely far */
+    assert_volume("'attenuationColor':[0,0,0],'attenuationDistance':-1,'thicknessFactor':3", "1",
+                  .5f, 1);
+    assert_volume("'attenuationColor':[-9,0,9],'attenuationDistance':1,'thicknessFactor':1", "1", 0,
+                  0);
+}
+
 static void test_wrong_types_are_refused(void **state) {
     (void)state;
     refuse(EXTENSIONS("'KHR_materials_ior':{'ior':'glass'}"),
@@ -121,6 +205,26 @@ static void test_wrong_types_are_refused(void **state) {
     refuse(EXTENSIONS("'KHR_materials_pbrSpecularGlossiness':{'diffuseTexture':{'index':7}}"),
            "t: materials[0].extensions.KHR_materials_pbrSpecularGlossiness.diffuseTexture.index: "
            "index 7, but there are 0 textures");
+    refuse(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatFactor':[1]}"),
+           "t: materials[0].extensions.KHR_materials_clearcoat.clearcoatFactor: must be a number, "
+           "is an array");
+    refuse(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatTexture':{'index':-3}}"),
+           "t: materials[0].extensions.KHR_materials_clearcoat.clearcoatTexture.index: index "
+           "-3, but there are 0 textures");
+    refuse(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatFactor':1,'clearcoatRoughnessTexture':"
+                      "{'index':4}}"),
+           "t: materials[0].extensions.KHR_materials_clearcoat.clearcoatRoughnessTexture.index: "
+           "index 4, but there are 0 textures");
+    refuse(EXTENSIONS("'KHR_materials_transmission':7"),
+           "t: materials[0].extensions.KHR_materials_transmission: must be an object, is a "
+           "number");
+    refuse(EXTENSIONS("'KHR_materials_transmission':{'transmissionFactor':1,'transmissionTexture':"
+                      "{}}"),
+           "t: materials[0].extensions.KHR_materials_transmission.transmissionTexture.index: "
+           "missing");
+    refuse(EXTENSIONS("'KHR_materials_volume':{'attenuationColor':[1]}"),
+           "t: materials[0].extensions.KHR_materials_volume.attenuationColor: must have 3 numbers, "
+           "has 1");
 }
 
 static void add_textures(void) {
@@ -163,6 +267,51 @@ static void test_light_maps(void **state) {
     scene = load_textured("'extras':{'gnomon_lightmap':2}");
     assert_int_equal(lightmap_of(scene)->texture, -1);
     assert_int_equal(warnings.count, 1);
+    gn_scene_destroy(scene);
+}
+
+static void test_textures_of_coat_and_transmission(void **state) {
+    (void)state;
+    struct gn_scene *scene = load_textured(
+        EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatFactor':1,'clearcoatTexture':{'index':0},"
+                   "'clearcoatRoughnessTexture':{'index':1,'texCoord':1}},"
+                   "'KHR_materials_transmission':{'transmissionFactor':1,"
+                   "'transmissionTexture':{'index':1}}"));
+    const struct gn_material *m = &scene->materials[0];
+    assert_int_equal(warnings.count, 0);
+    assert_true(m->textures[GN_TEXTURE_COAT].texture >= 0);
+    assert_true(m->textures[GN_TEXTURE_TRANSMISSION].texture >= 0);
+    assert_int_equal(m->textures[GN_TEXTURE_COAT_ROUGHNESS].uv_set, 1);
+    assert_true(gn_material_has_opaque_texels(m)); /* where the texture is 0 */
+    assert_false(gn_material_is_clear(m));
+    assert_true(scene->pictures.images[0].as_data && !scene->pictures.images[0].as_color);
+    gn_scene_destroy(scene);
+    /* nothing of a coat of 0: its texture is not even read */
+    scene = load_textured(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatTexture':{'index':0}}"));
+    assert_int_equal(scene->materials[0].textures[GN_TEXTURE_COAT].texture, -1);
+    assert_int_equal(scene->pictures.image_count, 0);
+    gn_scene_destroy(scene);
+}
+
+static void test_too_many_textures(void **state) {
+    (void)state;
+    setup_with_material(NULL);
+    add_textures();
+    gn_maker_set(
+        &maker, "materials",
+        "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicRoughnessTexture':"
+        "{'index':0}},'emissiveTexture':{'index':0},'occlusionTexture':{'index':0},"
+        "'normalTexture':{'index':0},'extensions':{'MOZ_lightmap':{'index':0},"
+        "'KHR_materials_clearcoat':{'clearcoatFactor':1,'clearcoatTexture':{'index':0},"
+        "'clearcoatRoughnessTexture':{'index':1}},'KHR_materials_transmission':"
+        "{'transmissionFactor':1,'transmissionTexture':{'index':1}}}}]");
+    struct gn_scene *scene = load();
+    assert_int_equal(warnings.count, 3); /* the first: no coordinates for its normal map */
+    assert_string_equal(warnings.text[1], "t: materials[0]: more than 7 textures; shown without "
+                                          "the clearcoatTexture");
+    assert_string_equal(warnings.text[2], "t: materials[0]: more than 7 textures; shown without "
+                                          "the clearcoatRoughnessTexture");
+    assert_int_equal(scene->material_textures, GN_MATERIAL_TEXTURES_MAX);
     gn_scene_destroy(scene);
 }
 
@@ -211,8 +360,13 @@ int main(void) {
         cmocka_unit_test(test_specular_glossiness),
         cmocka_unit_test(test_what_is_missing_is_named),
         cmocka_unit_test(test_materials_that_nothing_shows_miss_nothing),
+        cmocka_unit_test(test_clear_coat),
+        cmocka_unit_test(test_transmission),
+        cmocka_unit_test(test_a_volume_tints),
         cmocka_unit_test(test_wrong_types_are_refused),
         cmocka_unit_test(test_light_maps),
+        cmocka_unit_test(test_textures_of_coat_and_transmission),
+        cmocka_unit_test(test_too_many_textures),
         cmocka_unit_test(test_sets_beyond_the_first_two),
         cmocka_unit_test(test_materials_of_other_reflectance_share_no_call),
     };
