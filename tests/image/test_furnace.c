@@ -11,40 +11,22 @@
 #include <unistd.h>
 
 #include "environment/environment.h"
+#include "image/ball.h"
 #include "image/shot.h"
 #include "unit/check.h"
 #include "unit/gltf_maker.h"
 
-enum { AROUND = 64, DOWN = 32, POINTS = (AROUND + 1) * (DOWN + 1), TRIANGLES = 2 * AROUND * DOWN };
 enum { ROUGHNESSES = 9, WIDTH = 480, HEIGHT = 120 };
 
-static char folder[512], scenes[3][600], uniform[600], half[600];
+enum { ROWS = 6 };
+static char folder[512], scenes[ROWS][600], uniform[600], half[600];
 
 /* A row of spheres of rising roughness. light: one of its own, unlike any other. */
 static void write_spheres(const char *path, double metalness, const char *more, bool light) {
-    static float places[POINTS][3], normals[POINTS][3];
-    static uint16_t indices[TRIANGLES][3];
-    const double pi = acos(-1);
     struct gn_maker maker;
     struct gn_err err = {0};
     gn_maker_init(&maker);
-    for (int i = 0; i < POINTS; i++) {
-        const double down = pi * (i / (AROUND + 1)) / DOWN,
-                     around = 2 * pi * (i % (AROUND + 1)) / AROUND;
-        normals[i][0] = (float)(sin(down) * cos(around));
-        normals[i][1] = (float)cos(down);
-        normals[i][2] = (float)(sin(down) * sin(around));
-        for (int k = 0; k < 3; k++) places[i][k] = 0.45f * normals[i][k];
-    }
-    for (int i = 0; i < AROUND * DOWN; i++) {
-        const int a = i / AROUND * (AROUND + 1) + i % AROUND, b = a + AROUND + 1;
-        const int six[6] = {a, a + 1, b, b, a + 1, b + 1};
-        for (int k = 0; k < 6; k++) indices[2 * i + k / 3][k % 3] = (uint16_t)six[k];
-    }
-    gn_maker_accessor(&maker, "VEC3", 5126, POINTS, places, sizeof places,
-                      "'min':[-0.45,-0.45,-0.45],'max':[0.45,0.45,0.45]");
-    gn_maker_accessor(&maker, "VEC3", 5126, POINTS, normals, sizeof normals, NULL);
-    gn_maker_accessor(&maker, "SCALAR", 5123, 3 * TRIANGLES, indices, sizeof indices, NULL);
+    gn_ball_add(&maker, 0.45f);
     char text[400], nodes[200] = "";
     for (int i = 0; i < ROUGHNESSES; i++) {
         snprintf(text, sizeof text,
@@ -74,13 +56,6 @@ static void write_spheres(const char *path, double metalness, const char *more, 
     gn_maker_add(&maker, "scenes", text);
     gn_maker_set(&maker, "scene", "0");
     if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
-}
-
-static void write_uniform(const char *path, uint8_t exponent) {
-    FILE *file = fopen(path, "wb");
-    fputs("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n", file);
-    for (int i = 0; i < 8; i++) fwrite((uint8_t[]){128, 128, 128, exponent}, 4, 1, file);
-    fclose(file);
 }
 
 static struct gn_picture draw(const char *scene, const char *environment, const char *more,
@@ -120,8 +95,9 @@ static void check_uniform(const struct gn_picture *picture, float wanted, const 
 
 static void test_white_spheres_lose_nothing_in_uniform_light(void **state) {
     (void)state;
-    static const char *const what[3] = {"white", "metal", "double sided"};
-    for (int s = 0; s < 3; s++) {
+    static const char *const what[ROWS] = {
+        "white", "metal", "double sided", "coated", "coated by half, rough", "coated metal"};
+    for (int s = 0; s < ROWS; s++) {
         struct gn_picture picture = draw(scenes[s], uniform, "--environment-turn", "0");
         check_uniform(&picture, 1.0f, what[s]);
         gn_picture_finish(&picture);
@@ -222,7 +198,7 @@ static void test_kept_files_are_used_and_few(void **state) {
     if (!gn_shot_full()) return;
     for (int i = 0; i < 18; i++) {
         snprintf(more, sizeof more, "%s/%d.hdr", folder, i);
-        write_uniform(more, (uint8_t)(100 + i));
+        gn_uniform_write(more, i - 29);
         picture = draw(scenes[1], more, NULL, NULL);
         gn_picture_finish(&picture);
         unlink(more);
@@ -249,6 +225,10 @@ static void test_a_bad_file_is_one_line(void **state) {
         fail_msg("\"%s\"", run.err);
 }
 
+#define COAT(factor, roughness)                                                                    \
+    "'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':" factor                           \
+    ",'clearcoatRoughnessFactor':" roughness "}},"
+
 static int set_up(void **state) {
     (void)state;
     char build[PATH_MAX]; /* whole: relative folders for caches are ignored */
@@ -256,15 +236,16 @@ static int set_up(void **state) {
     snprintf(folder, sizeof folder, "%.400s/furnace.%d", build, (int)getpid());
     mkdir(folder, 0700);
     setenv("XDG_CACHE_HOME", folder, 1);
-    for (int i = 0; i < 3; i++) snprintf(scenes[i], sizeof scenes[i], "%s/%d.glb", folder, i);
+    for (int i = 0; i < ROWS; i++) snprintf(scenes[i], sizeof scenes[i], "%s/%d.glb", folder, i);
     snprintf(uniform, sizeof uniform, "%s/uniform.hdr", folder);
     snprintf(half, sizeof half, "%s/half.hdr", folder);
     write_spheres(scenes[0], 0, "", false);
     write_spheres(scenes[1], 1, "", false);
     write_spheres(scenes[2], 0, "'doubleSided':true,", false);
-    write_uniform(uniform, 129);
-    write_uniform(half, 128);
-    return 0;
+    write_spheres(scenes[3], 0, COAT("1", "0"), false);
+    write_spheres(scenes[4], 0, COAT("0.5", "0.7"), false);
+    write_spheres(scenes[5], 1, COAT("1", "0.2"), false);
+    return gn_uniform_write(uniform, 0) && gn_uniform_write(half, -1) ? 0 : 1;
 }
 
 static int tear_down(void **state) {
