@@ -19,7 +19,8 @@ static double encoded(double c) {
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
 }
 
-/* Panes of rising alpha, half of them before a slanted opaque square, some shining. */
+/* Panes of rising alpha, half of them before a slanted opaque square, some shining, two of grey
+ * glass. */
 static const char *make_scene(const char *name, int lights) {
     static char path[600];
     struct gn_maker maker;
@@ -43,9 +44,12 @@ static const char *make_scene(const char *name, int lights) {
                  "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
     for (int i = 0; i < PANES; i++) {
         snprintf(text, sizeof text,
-                 "{'alphaMode':'BLEND','emissiveFactor':[%.3f,0,%.3f],'pbrMetallicRoughness':{"
-                 "'metallicFactor':0,'baseColorFactor':[%.3f,0.5,0.8,%.4f]}}",
-                 i % 4 == 1 ? 0.9 : 0.0, i % 4 == 2 ? 1.0 : 0.0, i / 8.0, (i + 0.6) / (PANES + 1));
+                 "{'alphaMode':'%s','emissiveFactor':[%.3f,0,%.3f],'pbrMetallicRoughness':{"
+                 "'metallicFactor':0,'baseColorFactor':[%.3f,%.3f,%.3f,%.4f]},'extensions':{"
+                 "'KHR_materials_transmission':{'transmissionFactor':%g}}}",
+                 i == 3 ? "OPAQUE" : "BLEND", i % 4 == 1 ? 0.9 : 0.0, i % 4 == 2 ? 1.0 : 0.0,
+                 i / 8.0, i % 4 == 3 ? i / 8.0 : 0.5, i % 4 == 3 ? i / 8.0 : 0.8,
+                 (i + 0.6) / (PANES + 1), i % 4 == 3 ? 0.8 : 0.0);
         gn_maker_add(&maker, "materials", text);
         snprintf(text, sizeof text,
                  "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':%d}]}", i + 1);

@@ -113,20 +113,35 @@ static void test_so_it_does_where_lights_are_added(void **state) {
 
 /* ---- shadows by alpha ---- */
 
-/* A ground of 8 m, and a pane of 2 m over it with an alpha of .3, under a sun in the zenith. */
-static const char *make_pane(bool casts) {
+#define PLAIN(color) "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorFactor':" color "}"
+#define FILM         "'alphaMode':'BLEND'," PLAIN("[1,1,1,0.3]")
+#define GLASS(factor, more)                                                                        \
+    ",'extensions':{'KHR_materials_transmission':{'transmissionFactor':" factor more "}}"
+
+/* A ground of 8 m, and a pane of 2 m over it, under a sun in the zenith. */
+static const char *make_pane(const char *material, bool casts) {
     static char path[600];
     struct gn_maker maker;
     struct gn_err err = {0};
-    char nodes[800];
+    char nodes[800], text[400];
     gn_maker_init(&maker);
     gn_maker_square(&maker);
-    gn_maker_set(&maker, "materials",
-                 "[{'pbrMetallicRoughness':{'metallicFactor':0}},{'alphaMode':'BLEND',"
-                 "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorFactor':[1,1,1,0.3]}}]");
-    gn_maker_set(&maker, "meshes",
-                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]},"
-                 "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':1}]}]");
+    const int uv = gn_maker_accessor(&maker, "VEC2", 5126, 4, (float[8]){0}, 32, NULL);
+    static const uint8_t half[] = {128, 0, 0, 255};
+    struct gn_made png = gn_maker_png(1, 1, half);
+    snprintf(text, sizeof text, "[{'bufferView':%d,'mimeType':'image/png'}]",
+             gn_maker_view(&maker, png.data, png.size));
+    free(png.data);
+    gn_maker_set(&maker, "images", text);
+    gn_maker_set(&maker, "textures", "[{'source':0}]");
+    snprintf(text, sizeof text, "[{'pbrMetallicRoughness':{'metallicFactor':0}},{%s}]", material);
+    gn_maker_set(&maker, "materials", text);
+    snprintf(text, sizeof text,
+             "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]},"
+             "{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':%d},'indices':1,"
+             "'material':1}]}]",
+             uv);
+    gn_maker_set(&maker, "meshes", text);
     snprintf(
         nodes, sizeof nodes,
         "[{'camera':0,'translation':[0,16,0],'rotation':[-0.70710678,0,0,0.70710678]},"
@@ -169,12 +184,37 @@ static void test_a_blended_caster_takes_its_alpha_of_the_light(void **state) {
         {"vsm", "mask"},  {"msm", "mask"},  {"planar", "mask"}, {"planar", "stencil"},
         {"disk", "mask"}, {"smsm", "mask"}, {"pcf5", "mask"},   {"evsm", "mask"}};
     for (size_t i = 0; i < (gn_shot_full() ? 12 : 8); i++) {
-        const double clear = light_under(make_pane(false), ways[i][0], ways[i][1]);
-        const double under = light_under(make_pane(true), ways[i][0], ways[i][1]);
+        const double clear = light_under(make_pane(FILM, false), ways[i][0], ways[i][1]);
+        const double under = light_under(make_pane(FILM, true), ways[i][0], ways[i][1]);
         print_message("%s %s: %.3f\n", ways[i][0], ways[i][1], under);
         if (clear < 0.999) fail_msg("%s: a blended pane casts: %.3f", ways[i][0], clear);
         if (fabs(under - 0.7) > 0.1) fail_msg("%s: %.3f, not .7", ways[i][0], under);
     }
+}
+
+/* Glass casts none unless it is asked to, and then by what it does not let through, for the sum of
+ * colours as the eye has it; with a texture, or where most of it is no glass, in any case. */
+static void test_glass_takes_what_it_does_not_let_through(void **state) {
+    (void)state;
+    static const struct {
+        const char *material;
+        double unasked, asked; /* visibility */
+    } panes[] = {
+        {PLAIN("[1,1,1,1]") GLASS("0.8", ""), 1, 0.8},
+        {PLAIN("[0,0.5,0,0.1]") GLASS("1", ""), 1, 0.7152 / 2},
+        {PLAIN("[1,1,1,1]") GLASS("0.4", ""), 0.4, 0.4},
+        {PLAIN("[1,1,1,1]") GLASS("1", ",'transmissionTexture':{'index':0}"), 0.5, 0.5},
+        {"'alphaMode':'BLEND'," PLAIN("[1,1,1,0.5]") GLASS("0.6", ""), 1, 0.8},
+    };
+    for (size_t i = 0; i < sizeof panes / sizeof *panes; i++)
+        for (int asked = 0; asked < 2; asked++) {
+            const double got = light_under(make_pane(panes[i].material, asked), "pcf", "mask");
+            const double wanted = asked ? panes[i].asked : panes[i].unasked;
+            print_message("%s: %.3f\n", panes[i].material, got);
+            if (fabs(got - wanted) > 0.05)
+                fail_msg("%s%s: %.3f, not %.3f", panes[i].material, asked ? ", asked" : "", got,
+                         wanted);
+        }
 }
 
 int main(void) {
@@ -182,6 +222,7 @@ int main(void) {
         cmocka_unit_test(test_what_is_nearer_hides_what_is_farther),
         cmocka_unit_test(test_so_it_does_where_lights_are_added),
         cmocka_unit_test(test_a_blended_caster_takes_its_alpha_of_the_light),
+        cmocka_unit_test(test_glass_takes_what_it_does_not_let_through),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
