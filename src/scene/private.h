@@ -54,7 +54,7 @@ struct gn_accessor {
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
     X(POINTERS, "animation pointers", NULL)                                                        \
     X(COAT_NORMALS, "normal maps of clear coat", NULL)                                             \
-    X(VOLUME, "refraction in volumes", "KHR_materials_volume")                                     \
+    X(VOLUME, "refraction in volumes", NULL)                                                       \
     X(SHEEN, "sheen", "KHR_materials_sheen")                                                       \
     X(IRIDESCENCE, "iridescence", "KHR_materials_iridescence")                                     \
     X(ANISOTROPY, "anisotropy", "KHR_materials_anisotropy")                                        \

@@ -34,9 +34,9 @@ static void add_pictures(struct gn_maker *m) {
 }
 
 static void add_materials(struct gn_maker *m) {
-    gn_maker_set(
-        m, "extensionsUsed",
-        "['KHR_texture_transform','KHR_materials_unlit','KHR_materials_emissive_strength']");
+    gn_maker_set(m, "extensionsUsed",
+                 "['KHR_texture_transform','KHR_materials_unlit','KHR_materials_emissive_strength',"
+                 "'KHR_materials_clearcoat','KHR_materials_transmission','KHR_materials_volume']");
     gn_maker_add(
         m, "materials",
         "{'name':'all','alphaMode':'MASK','alphaCutoff':0.3,'doubleSided':true,'emissiveFactor':[1,"
@@ -50,6 +50,15 @@ static void add_materials(struct gn_maker *m) {
     gn_maker_add(m, "materials",
                  "{'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorTexture':{'index':4}},"
                  "'extensions':{'KHR_materials_unlit':{}}}");
+    gn_maker_add(
+        m, "materials",
+        "{'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':0.9,"
+        "'clearcoatRoughnessFactor':0.2,'clearcoatTexture':{'index':0},'clearcoatRoughnessTexture':"
+        "{'index':1,'texCoord':1}},"
+        "'KHR_materials_transmission':{'transmissionFactor':0.7,'transmissionTexture':{'index':0}},"
+        "'KHR_materials_volume':{'thicknessFactor':0,'attenuationDistance':2,"
+        "'attenuationColor':[0.5,0.6,1]},'KHR_materials_ior':{'ior':1.4},'KHR_materials_specular':"
+        "{'specularFactor':0.5,'specularColorFactor':[1,2,0.5]}}}");
 }
 
 /* A mesh of one textured square with normals, two UV sets and colours of three kinds. */
@@ -66,13 +75,14 @@ static void add_rich_mesh(struct gn_maker *m) {
     json_object_set_new(view, "byteStride", json_integer(4));
     int second = gn_maker_accessor(m, "VEC2", 5123, 4, uv16, sizeof uv16, "'normalized':true");
     int color = gn_maker_accessor(m, "VEC4", 5121, 4, colors, sizeof colors, "'normalized':true");
-    char json[300];
+    char json[400];
     snprintf(json, sizeof json,
              "[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':%d,'TEXCOORD_0':%d,'TEXCOORD_1':"
              "%d,'COLOR_0':%d},"
              "'indices':1,'material':0},{'attributes':{'POSITION':0},'mode':5,'material':1},"
-             "{'attributes':{'POSITION':0},'mode':6}]}]",
-             normal, uv, second, color);
+             "{'attributes':{'POSITION':0},'mode':6},{'attributes':{'POSITION':0,'NORMAL':%d,"
+             "'TEXCOORD_0':%d,'TEXCOORD_1':%d},'indices':1,'material':2}]}]",
+             normal, uv, second, color, normal, uv, second);
     gn_maker_set(m, "meshes", json);
 }
 

@@ -30,8 +30,24 @@ static const char *const materials[] = {
     "{'name':'sign','extensions':{'KHR_materials_unlit':{}}}",
     "{'name':'picture','extensions':{'KHR_materials_unlit':{}},'pbrMetallicRoughness':"
     "{'baseColorTexture':{'index':0}}}",
+    "{'name':'paint','pbrMetallicRoughness':{'roughnessFactor':0.5,'metallicFactor':0,"
+    "'baseColorTexture':{'index':0}},'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':1}"
+    "}}",
+    "{'name':'pane','pbrMetallicRoughness':{'roughnessFactor':0.1,'metallicFactor':0},"
+    "'extensions':{'KHR_materials_transmission':{'transmissionFactor':1}}}",
+    "{'name':'bottle','pbrMetallicRoughness':{'roughnessFactor':0.1,'metallicFactor':0,"
+    "'baseColorTexture':{'index':0}},'extensions':{'KHR_materials_transmission':"
+    "{'transmissionFactor':1,'transmissionTexture':{'index':0}},'KHR_materials_clearcoat':"
+    "{'clearcoatFactor':1,'clearcoatTexture':{'index':0},'clearcoatRoughnessTexture':{'index':0}}}"
+    "}",
 };
-enum { ALL = 5, GLASS = 8, SIGN = 9, MATERIAL_COUNT = sizeof materials / sizeof *materials };
+enum {
+    ALL = 5,
+    GLASS = 8,
+    SIGN = 9,
+    PAINT = 11,
+    MATERIAL_COUNT = sizeof materials / sizeof *materials
+};
 
 static void add_texture(struct gn_maker *m) {
     static const uint8_t pixels[16] = {255, 255, 255, 255, 90,  90,  90,  255,
@@ -155,7 +171,8 @@ struct gn_scene *gn_gpu_scene_make(enum gn_gpu_scene scene) {
     for (int i = 1; i < MATERIAL_COUNT; i++) {
         const float x = (float)i - 5, y = 0.5f + 0.1f * (float)i;
         const bool few = scene == GN_GPU_FEW_MATERIALS, all = scene == GN_GPU_MATERIALS;
-        if (all || (few && (i == GLASS || i == SIGN))) add_card(&m, square.plain, i, x, y, 0.5f);
+        if (all || (few && (i == GLASS || i == SIGN || i >= PAINT)))
+            add_card(&m, square.plain, i, x, y, 0.5f);
         if (all || (few && i == ALL)) add_card(&m, square.colored, i, x, y + 1.1f, 0.5f);
     }
     if (scene == GN_GPU_CROWD) add_card(&m, square.plain, GLASS, 0, 2, 1);

@@ -138,6 +138,18 @@ static bool write(const char *folder, const char *name, const struct gn_program_
 /* The shader that the figures are about: base texture, hemisphere, Blinn-Phong, an sRGB target. */
 #define DIFFUSE (GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(HEMISPHERE))
 #define FULL    (DIFFUSE | GN_FEATURE(SPECULAR))
+/* The whole look of a material in an environment. */
+#define LOOK                                                                                       \
+    (GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(SPECULAR) | GN_FEATURE(ENVIRONMENT) |                   \
+     GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(TONE_NEUTRAL))
+#define GLASS (GN_FEATURE(TRANSMISSION) | GN_FEATURE(TINTED))
+
+static struct gn_program_key tint(void) {
+    struct gn_program_key key = {.kind = GN_PROGRAM_LIT,
+                                 .features = GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(SPECULAR) |
+                                             GN_FEATURE(UNLIT) | GLASS};
+    return key;
+}
 
 /* What the table of techniques lists, as TECHNIQUE-LIGHT-FORMAT: every technique with every light
  * and the encoding that it gets by itself, hard with all. */
@@ -190,6 +202,16 @@ int main(int argc, char **argv) {
         {"pcf-neutral", lit(FULL | GN_FEATURE(TONE_NEUTRAL), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-aces", lit(FULL | GN_FEATURE(TONE_ACES), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-agx", lit(FULL | GN_FEATURE(TONE_AGX), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look", lit(LOOK, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-coat", lit(LOOK | GN_FEATURE(COAT), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-normal-map",
+         lit(LOOK | GN_FEATURE(NORMAL_TEXTURE), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-normal-map-coat", lit(LOOK | GN_FEATURE(NORMAL_TEXTURE) | GN_FEATURE(COAT),
+                                     GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-glass", lit(LOOK | GN_FEATURE(TRANSMISSION), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-glass-tinted", lit(LOOK | GLASS, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-glass-tint", tint()},
+        {"pcf-coat", lit(FULL | GN_FEATURE(COAT), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"hard-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "r16f"))},
         {"pcf-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth"))},
         {"pcf-cascades-mask",

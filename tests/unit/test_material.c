@@ -78,10 +78,11 @@ static void test_specular_glossiness(void **state) {
 
 static void test_what_is_missing_is_named(void **state) {
     (void)state;
-    struct gn_scene *scene = load_material(
-        EXTENSIONS("'KHR_materials_sheen':{},'KHR_materials_volume':{},'KHR_materials_clearcoat':"
-                   "{'clearcoatFactor':1,'clearcoatNormalTexture':{'index':0}},'EXT_unknown':{},"
-                   "'KHR_materials_specular':{'specularTexture':{'index':0}}"));
+    struct gn_scene *scene = load_material(EXTENSIONS(
+        "'KHR_materials_sheen':{},'KHR_materials_volume':{'thicknessFactor':1},"
+        "'KHR_materials_transmission':{'transmissionFactor':1},'KHR_materials_clearcoat':"
+        "{'clearcoatFactor':1,'clearcoatNormalTexture':{'index':0}},'EXT_unknown':{},"
+        "'KHR_materials_specular':{'specularTexture':{'index':0}}"));
     assert_string_equal(scene->missing, "normal maps of clear coat, refraction in volumes, sheen, "
                                         "textures of KHR_materials_specular");
     assert_int_equal(warnings.count, 1);
@@ -166,7 +167,8 @@ static void test_transmission(void **state) {
     gn_scene_destroy(scene);
 }
 
-static void assert_volume(const char *volume, const char *transmission, float r, float g) {
+static void assert_volume(const char *volume, const char *transmission, bool refracts, float r,
+                          float g) {
     char text[400];
     snprintf(text, sizeof text,
              "'pbrMetallicRoughness':{'baseColorFactor':[0.5,1,1,1]},'extensions':{"
@@ -175,24 +177,24 @@ static void assert_volume(const char *volume, const char *transmission, float r,
     struct gn_scene *scene = load_material(text);
     assert_near(scene->materials[0].base_color[0], r);
     assert_near(scene->materials[0].base_color[1], g);
-    assert_string_equal(scene->missing, "refraction in volumes");
+    assert_string_equal(scene->missing, refracts ? "refraction in volumes" : "");
     gn_scene_destroy(scene);
 }
 
 static void test_a_volume_tints(void **state) {
     (void)state;
 #define COLOR "'attenuationColor':[1,0.25,1],'attenuationDistance':2,'thicknessFactor':"
-    assert_volume(COLOR "1", "1", .5f, .5f); /* half of the distance: its root */
-    assert_volume(COLOR "2", "1", .5f, .25f);
-    assert_volume(COLOR "1000", "1", .5f, .25f); /* not more than once */
-    assert_volume(COLOR "1", "0.5", .5f, .75f);  /* what is not transmitted keeps its colour */
-    assert_volume(COLOR "0", "1", .5f, 1);
-    assert_volume("'attenuationColor':[0,0,0],'thicknessFactor':3", "1", .5f,
+    assert_volume(COLOR "1", "1", true, .5f, .5f); /* half of the distance: its root */
+    assert_volume(COLOR "2", "1", true, .5f, .25f);
+    assert_volume(COLOR "1000", "1", true, .5f, .25f); /* not more than once */
+    assert_volume(COLOR "1", "0.5", true, .5f, .75f); /* what is not transmitted keeps its colour */
+    assert_volume(COLOR "0", "1", false, .5f, 1);
+    assert_volume("'attenuationColor':[0,0,0],'thicknessFactor':3", "1", true, .5f,
                   1); /* infinitely far */
     assert_volume("'attenuationColor':[0,0,0],'attenuationDistance':-1,'thicknessFactor':3", "1",
-                  .5f, 1);
-    assert_volume("'attenuationColor':[-9,0,9],'attenuationDistance':1,'thicknessFactor':1", "1", 0,
-                  0);
+                  true, .5f, 1);
+    assert_volume("'attenuationColor':[-9,0,9],'attenuationDistance':1,'thicknessFactor':1", "1",
+                  true, 0, 0);
 }
 
 static void test_wrong_types_are_refused(void **state) {

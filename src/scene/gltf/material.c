@@ -172,6 +172,7 @@ static void read_coat_and_transmission(struct gn_gltf *g, const struct gn_at *at
     const float way = thickness > 0 && distance > 0 ? clamp(thickness / distance, 0, 1) : 0;
     for (int k = 0; k < 3; k++)
         m->base_color[k] *= glm_lerp(1, powf(clamp(color[k], 0, 1), way), m->transmission);
+    if (used && m->transmission > 0 && thickness > 0) g->is_missing[GN_MISSING_VOLUME] = true;
     if (used && m->coat > 0 && gn_at_any(&coat, "clearcoatNormalTexture").json)
         g->is_missing[GN_MISSING_COAT_NORMALS] = true;
 }
