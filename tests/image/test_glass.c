@@ -94,7 +94,8 @@ static struct gn_picture draw(const struct thing *thing, const char *environment
 static double schlick(double n_v) { return 0.04 + 0.96 * pow(1 - n_v, 5); }
 
 /* Compares every pixel of a sphere but its rim with what `wanted` makes of F. The fit of the split
- * sum is .07 below Schlick's form at grazing angles, and within .016 where the cosine is over .4. */
+ * sum is .07 below Schlick's form at grazing angles, and within .016 where the cosine is over .4.
+ */
 static void compare_sphere(const struct gn_picture *picture, const char *what,
                            void (*wanted)(double f, double color[3])) {
     double worst = 0, worst_inside = 0;
