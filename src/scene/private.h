@@ -61,7 +61,7 @@ struct gn_accessor {
     X(DISPERSION, "dispersion", "KHR_materials_dispersion")                                        \
     X(DIFFUSE_TRANSMISSION, "diffuse transmission", "KHR_materials_diffuse_transmission")          \
     X(SPECULAR_TEXTURES, "textures of KHR_materials_specular", NULL)                               \
-    X(GLOSSINESS_TEXTURES, "specular-glossiness textures", NULL)
+    X(GLOSSINESS_TEXTURES, "a specular-glossiness texture with two factors", NULL)
 
 enum gn_missing {
 #define GN_X(NAME, ...) GN_MISSING_##NAME,
@@ -134,10 +134,16 @@ struct gn_picture {  /* the source of images */
     uint64_t key[3]; /* a file: 1, device, inode; a part of a buffer: 2, address, size */
     size_t first;    /* number of the first image in the file that names it */
 };
+struct gn_glossy { /* what a texture of KHR_materials_pbrSpecularGlossiness became */
+    bool made;
+    int32_t texture;
+    float factor, mean[3];
+};
 struct gn_gltf_pictures { /* each is read once, whether it can be or not */
     struct gn_picture *list;
     size_t count;
     struct gn_table table;
+    struct gn_glossy *glossy; /* by texture of the scene; NULL: none yet */
 };
 struct gn_gltf_to_scene { /* from numbers of the file to indices in the scene */
     int32_t *node;        /* -1: not shown */
@@ -299,6 +305,10 @@ struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents);
 /* gltf/image.c: the scene's texture for one of the file, created at its first use; -1: none, or
  * dropped with a warning. */
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture);
+
+/* gltf/glossiness.c: replaces a texture of the scene by one of roughness, 1 - factor x its alpha;
+ * mean: of its colours, linear. False if it was made with another factor before, or failed. */
+bool gn_gltf_glossiness(struct gn_gltf *g, float factor, int32_t *texture, float mean[3]);
 
 /* gltf/extras.c: the gnomon_ keys. A wrong type or value gives a warning with the key, and the
  * default is kept. */

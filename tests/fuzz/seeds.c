@@ -50,6 +50,10 @@ static void add_materials(struct gn_maker *m) {
     gn_maker_add(m, "materials",
                  "{'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorTexture':{'index':4}},"
                  "'extensions':{'KHR_materials_unlit':{}}}");
+    gn_maker_add(m, "materials",
+                 "{'extensions':{'KHR_materials_pbrSpecularGlossiness':{'glossinessFactor':0.5,"
+                 "'diffuseFactor':[1,0.5,0.2,1],'specularFactor':[0.5,0.4,0.3],"
+                 "'specularGlossinessTexture':{'index':0}}}}");
     gn_maker_add(
         m, "materials",
         "{'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':0.9,"
@@ -75,14 +79,15 @@ static void add_rich_mesh(struct gn_maker *m) {
     json_object_set_new(view, "byteStride", json_integer(4));
     int second = gn_maker_accessor(m, "VEC2", 5123, 4, uv16, sizeof uv16, "'normalized':true");
     int color = gn_maker_accessor(m, "VEC4", 5121, 4, colors, sizeof colors, "'normalized':true");
-    char json[400];
+    char json[500];
     snprintf(json, sizeof json,
              "[{'primitives':[{'attributes':{'POSITION':0,'NORMAL':%d,'TEXCOORD_0':%d,'TEXCOORD_1':"
              "%d,'COLOR_0':%d},"
              "'indices':1,'material':0},{'attributes':{'POSITION':0},'mode':5,'material':1},"
              "{'attributes':{'POSITION':0},'mode':6},{'attributes':{'POSITION':0,'NORMAL':%d,"
-             "'TEXCOORD_0':%d,'TEXCOORD_1':%d},'indices':1,'material':2}]}]",
-             normal, uv, second, color, normal, uv, second);
+             "'TEXCOORD_0':%d,'TEXCOORD_1':%d},'indices':1,'material':3},"
+             "{'attributes':{'POSITION':0,'TEXCOORD_0':%d},'indices':1,'material':2}]}]",
+             normal, uv, second, color, normal, uv, second, uv);
     gn_maker_set(m, "meshes", json);
 }
 

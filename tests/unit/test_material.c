@@ -317,6 +317,47 @@ static void test_too_many_textures(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* What is read of a texture: roughness is 1 - factor x alpha, texel by texel; the colour's mean, of
+ * red (1) and black, is the reflectance. */
+static void test_a_glossiness_texture_becomes_one_of_roughness(void **state) {
+    (void)state;
+    static const uint8_t two[] = {255, 0, 0, 255, 0, 0, 0, 51};
+    char json[900];
+    setup_with_material(NULL);
+    struct gn_made png = gn_maker_png(2, 1, two);
+    snprintf(json, sizeof json, "[{'bufferView':%d}]", gn_maker_view(&maker, png.data, png.size));
+    free(png.data);
+    gn_maker_set(&maker, "images", json);
+    gn_maker_set(&maker, "textures", "[{'source':0}]");
+#define GLOSSY(factor)                                                                             \
+    "{" EXTENSIONS("'KHR_materials_pbrSpecularGlossiness':{'specularFactor':[0.8,1,1],"            \
+                   "'glossinessFactor':" factor ",'specularGlossinessTexture':{'index':0}}") "}"
+    gn_maker_set(&maker, "materials", "[" GLOSSY("0.5") "," GLOSSY("0.5") "," GLOSSY("1") "]");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0},"
+                 "{'attributes':{'POSITION':0},'indices':1,'material':1},"
+                 "{'attributes':{'POSITION':0},'indices':1,'material':2}]}]");
+    struct gn_scene *scene = load();
+    const struct gn_material *m = &scene->materials[0];
+    const int32_t texture = m->textures[GN_TEXTURE_ROUGHNESS].texture;
+    assert_true(texture >= 0);
+    const struct gn_image *image = &scene->pictures.images[scene->pictures.textures[texture].image];
+    assert_near(m->roughness, 1);
+    assert_near(m->metalness, 0);
+    assert_in_range(image->rgba[1], 127, 128);
+    assert_in_range(image->rgba[5], 229, 230); /* 255 - 51 / 2 */
+    assert_int_equal(image->rgba[6], 0);
+    assert_true(image->as_data && !scene->pictures.images[0].as_color);
+    assert_near(m->f0[0], .4f);
+    assert_near(m->f0[1], 0);
+    assert_near(m->base_color[1], .6f);
+    assert_int_equal(scene->materials[1].textures[GN_TEXTURE_ROUGHNESS].texture, texture);
+    /* made once: not with another factor */
+    assert_int_equal(scene->materials[2].textures[GN_TEXTURE_ROUGHNESS].texture, -1);
+    assert_string_equal(scene->missing, "a specular-glossiness texture with two factors");
+    gn_scene_destroy(scene);
+}
+
 static void test_sets_beyond_the_first_two(void **state) {
     (void)state;
     static const float uv[8] = {0, 0, 5, 0, 5, 5, 0, 5}, other[8] = {0, 0, 7, 0, 7, 7, 0, 7};
@@ -369,6 +410,7 @@ int main(void) {
         cmocka_unit_test(test_light_maps),
         cmocka_unit_test(test_textures_of_coat_and_transmission),
         cmocka_unit_test(test_too_many_textures),
+        cmocka_unit_test(test_a_glossiness_texture_becomes_one_of_roughness),
         cmocka_unit_test(test_sets_beyond_the_first_two),
         cmocka_unit_test(test_materials_of_other_reflectance_share_no_call),
     };

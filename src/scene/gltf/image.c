@@ -210,10 +210,12 @@ static bool allocate_textures(struct gn_gltf *g) {
     if (g->to_scene.texture) return true;
     g->to_scene.texture = gn_gltf_alloc(g, &g->memory.load, g->file.texture_count, sizeof(int32_t));
     g->to_scene.image = gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof(int32_t));
-    scene->pictures.textures =
-        gn_gltf_alloc(g, g->memory.scene, g->file.texture_count, sizeof *scene->pictures.textures);
+    /* and for one more of each, which gltf/glossiness.c may make */
+    scene->pictures.textures = gn_gltf_alloc(
+        g, g->memory.scene, 2 * (uint64_t)g->file.texture_count, sizeof *scene->pictures.textures);
     scene->pictures.images =
-        gn_gltf_alloc(g, g->memory.scene, g->file.image_count, sizeof *scene->pictures.images);
+        gn_gltf_alloc(g, g->memory.scene, (uint64_t)g->file.image_count + g->file.texture_count,
+                      sizeof *scene->pictures.images);
     g->pictures.list =
         gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof *g->pictures.list);
     if (g->failed) return false;

@@ -127,8 +127,8 @@ static void read_f0(struct gn_gltf *g, const struct gn_at *at, bool used, struct
         g->is_missing[GN_MISSING_SPECULAR_TEXTURES] = true;
 }
 
-/* KHR_materials_pbrSpecularGlossiness: no metal, but any reflectance; what is reflected is not
- * diffuse. */
+/* KHR_materials_pbrSpecularGlossiness: no metal, but any reflectance, of a texture its mean; what
+ * is reflected is not diffuse. */
 static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used,
                             const uint64_t sets[GN_UV_SETS], struct gn_material *m) {
     float specular[3] = {1, 1, 1};
@@ -140,11 +140,19 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
     struct gn_at both = gn_at_object(g, at, "specularGlossinessTexture");
     struct gn_at base = gn_at_object(g, at, "diffuseTexture");
     read_texture(g, &base, used, sets, &m->textures[GN_TEXTURE_BASE]);
-    m->textures[GN_TEXTURE_ROUGHNESS].texture = -1;
-    if (both.json) { /* its factors tell nothing without it */
-        if (used) g->is_missing[GN_MISSING_GLOSSINESS_TEXTURES] = true;
-        m->roughness = .6f;
-        return;
+    struct gn_texture_ref *rough = &m->textures[GN_TEXTURE_ROUGHNESS];
+    rough->texture = -1;
+    read_texture(g, &both, used, sets, rough);
+    if (rough->texture >= 0) {
+        float mean[3];
+        if (gn_gltf_glossiness(g, 1 - m->roughness, &rough->texture, mean)) {
+            m->roughness = 1;
+            for (int k = 0; k < 3; k++) specular[k] *= mean[k];
+        } else {
+            g->is_missing[GN_MISSING_GLOSSINESS_TEXTURES] = true;
+            m->roughness = .6f;
+            rough->texture = -1;
+        }
     }
     float most = 0;
     for (int k = 0; k < 3; k++) {
