@@ -105,6 +105,10 @@
 #define PANEL_FRAME 2     /* rgb: linear; w: width, pixels */
 #define PANEL_PX 3        /* xy: width and height, pixels; zw: cosine and sine of the output's clockwise rotation */
 #define PANEL_SIZE 4
+/* The environment as the background */
+#define BACKDROP_RAYS 0   /* xyz of three, in the environment's frame: direction at the centre of NDC, per unit of x, of y */
+#define BACKDROP_LIGHT 3  /* x: factor on its radiance; y: level of the cube */
+#define BACKDROP_SIZE 4
 /* The last pass */
 #define ENCODE_BACKGROUND 0 /* rgb: linear */
 #define ENCODE_SIZE 1

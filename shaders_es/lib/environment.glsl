@@ -9,7 +9,7 @@
 vec3 environment_direction(vec3 d) {
 #ifdef WITH_ENVIRONMENT_TURNED
     vec2 turn = u_pass[PASS_ENVIRONMENT + ENVIRONMENT_TURN].xy;
-    d = vec3(turn.x * d.x + turn.y * d.z, d.y, turn.x * d.z - turn.y * d.x);
+    d = vec3(turn.x * d.x - turn.y * d.z, d.y, turn.x * d.z + turn.y * d.x);
 #endif
     return d;
 }

@@ -1,7 +1,7 @@
 // The constants of the pass. Layout: blocks.glsl. src/frame/ fills them. Picture: gn_frame_eye() (eye.c), set_picture_constants()
 // (frame.c), gn_frame_light_constants() (constants.c), gn_frame_slide_constants() (slides.c). Shadow maps:
 // gn_frame_shadow_constants() (constants.c). Other passes: filter_constants() (filter.c), fall_constants() (stencil.c),
-// overlay.c, caption.c.
+// backdrop.c, overlay.c, caption.c.
 uniform vec4 u_pass[PASS_SIZE];
 
 #ifndef PASS

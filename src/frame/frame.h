@@ -101,6 +101,11 @@ struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it
     bool show_maps;   /* draw the maps as panels along the lower edge */
 };
 
+enum gn_environment_show { /* as the background */
+                           GN_ENVIRONMENT_SHOW_NO,
+                           GN_ENVIRONMENT_SHOW_SHARP, /* as in a mirror */
+                           GN_ENVIRONMENT_SHOW_BLUR,
+};
 struct gn_frame_environment_opts {
     const struct gn_environment *of; /* NULL: none; must stay as it is while plans use it */
     uint64_t id;                     /* of its content */
@@ -108,7 +113,8 @@ struct gn_frame_environment_opts {
                             environment. Its colour and radius are among shadow.lights, its
                             direction is in the pose */
     bool reflected_only; /* in materials that need reflections alone; the hemispheres stay */
-    float turn_rad;      /* about +Y */
+    enum gn_environment_show show; /* in place of opts->background, unless that is transparent */
+    float turn_rad;                /* about +Y */
     float strength;      /* factor on its radiance; must be set */
 };
 

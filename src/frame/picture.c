@@ -171,6 +171,11 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
         add_further_planes(frame, pose, opts, i);
         if (marks) gn_frame_plane_passes(frame, pose, opts, i);
     }
+}
+
+/* After what is opaque, and the background where that is drawn. */
+void gn_frame_add_blended(struct gn_frame *frame, const struct gn_pose *pose,
+                          const struct gn_frame_opts *opts) {
     add_blend_passes(frame, pose, opts);
 
     /* Programs are made before they are needed: a light that comes near needs no new one. */

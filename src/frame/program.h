@@ -17,6 +17,7 @@
     X(AOV, "aov", "lit.vert", "aov.frag", PICTURE, 0)                                   /* what of them is in `aov` */ \
     X(MARK, "mark", "mark.vert", "mark.frag", PICTURE, GN_PROGRAM_BARE)                 /* gizmo of a light */ \
     X(PANEL, "panel", "panel.vert", "panel.frag", PICTURE, GN_PROGRAM_BARE | GN_PROGRAM_ENCODING) /* a map, on the picture */ \
+    X(BACKDROP, "backdrop", "backdrop.vert", "backdrop.frag", PICTURE, GN_PROGRAM_BARE) /* the environment behind everything */ \
     X(ENCODE, "encode", "encode.vert", "encode.frag", PICTURE, GN_PROGRAM_BARE)         /* the linear picture, encoded */ \
     X(CAPTION, "caption", "caption.vert", "caption.frag", PICTURE, GN_PROGRAM_BARE)     /* texts */ \
     X(FILTER, "filter", "encode.vert", NULL, FILTER, GN_PROGRAM_BARE)                   /* a map or moments to moments; gn_filter_steps has the fragment stages */
@@ -26,6 +27,8 @@
 #define GN_FRAME_STEPS(X)                                                                          \
     X(maps)                                                                                        \
     X(picture)                                                                                     \
+    X(backdrop)                                                                                    \
+    X(blended)                                                                                     \
     X(overlay)                                                                                     \
     X(encode)                                                                                      \
     X(captions)

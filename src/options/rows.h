@@ -62,6 +62,8 @@ GN_OPTION(.name = "environment-turn", .section = "render", .kind = GN_KIND_NUMBE
           .help = "turn the environment about the vertical axis, counter-clockwise seen from above", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_turn_deg))
 GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "X", .fallback = "1",
           .help = "factor on the environment's light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_strength))
+GN_OPTION(.name = "environment-show", .section = "render", .kind = GN_KIND_CHOICE, .choices = environment_shows, .value = "no|yes|blur", .fallback = "no",
+          .help = "draw the environment as the background, unless that is transparent", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_show))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
           .help = "draw a gizmo at each light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
 GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,

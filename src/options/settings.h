@@ -106,6 +106,7 @@ struct gn_render_settings {
     double shadow_specular;  /* NAN: as the scene says */
     const char *environment; /* "auto", "studio", "none" or a file; NULL: auto */
     double environment_turn_deg, environment_strength;
+    int environment_show; /* enum gn_environment_show */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */

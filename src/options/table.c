@@ -49,6 +49,10 @@ static const struct gn_choice outputs[] = {
 static const struct gn_choice tones[] = {{"auto", GN_TONE_AUTO}, {"neutral", GN_TONE_NEUTRAL},
                                          {"aces", GN_TONE_ACES}, {"agx", GN_TONE_AGX},
                                          {"none", GN_TONE_NONE}, {0}};
+static const struct gn_choice environment_shows[] = {{"no", GN_ENVIRONMENT_SHOW_NO},
+                                                     {"yes", GN_ENVIRONMENT_SHOW_SHARP},
+                                                     {"blur", GN_ENVIRONMENT_SHOW_BLUR},
+                                                     {0}};
 static const struct gn_choice backgrounds[] = {
     {"auto", GN_SHOW_SCENE}, {"transparent", GN_SHOW_TRANSPARENT}, {"sky", GN_SHOW_SKY}, {0}};
 static const struct gn_choice planar_ways[] = {

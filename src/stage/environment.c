@@ -184,7 +184,9 @@ bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settin
     const bool automatic = !name || strcmp(name, "auto") == 0,
                reflected_only = automatic && !scene->added.light;
     opts->environment = (struct gn_frame_environment_opts){0};
-    if (automatic) name = reflected_only && !needs_reflections(scene) ? "none" : "studio";
+    const enum gn_environment_show show = (enum gn_environment_show)settings->render.environment_show;
+    const bool is_seen = !reflected_only || needs_reflections(scene) || show;
+    if (automatic) name = is_seen ? "studio" : "none";
     if (strcmp(name, "none") == 0 || strength <= 0.0f) return true;
     const struct open_environment *open = open_environment(name, err);
     if (!open) return false;
@@ -193,6 +195,7 @@ bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settin
         .id = open->id,
         .lights_key = scene->added.light,
         .reflected_only = reflected_only,
+        .show = show,
         .turn_rad = glm_rad((float)settings->render.environment_turn_deg),
         .strength = strength,
     };

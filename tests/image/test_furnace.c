@@ -131,6 +131,109 @@ static void test_the_environment_turns(void **state) {
     gn_picture_finish(&quarter);
 }
 
+/* ---- as the background ---- */
+
+/* A camera that looks along -Z with 90 degrees; behind it a square, or before it one of metal that
+ * is a mirror and fills the picture. */
+static void write_view(const char *path, bool mirror) {
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_add(&maker, "materials", "{'pbrMetallicRoughness':{'roughnessFactor':0}}");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
+    gn_maker_set(&maker, "nodes",
+                 mirror ? "[{'mesh':0,'translation':[0,0,-2],'scale':[5,5,5],"
+                          "'rotation':[0.7071068,0,0,0.7071068]},{'camera':0}]"
+                        : "[{'mesh':0,'translation':[0,0,9]},{'camera':0}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+    gn_maker_add(&maker, "cameras",
+                 "{'type':'perspective','perspective':{'yfov':1.5707963,'znear':1}}");
+    if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
+}
+
+/* Red above the horizon, green from -Z to +X: the second quarter of each row. */
+static void write_quarters(const char *path) {
+    FILE *file = fopen(path, "wb");
+    fputs("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 128 +X 256\n", file);
+    for (int i = 0; i < 128 * 256; i++) {
+        const int x = i % 256, y = i / 256;
+        fwrite((uint8_t[]){y < 64 ? 128 : 1, x >= 64 && x < 128 ? 128 : 1, 128, 129}, 4, 1, file);
+    }
+    fclose(file);
+}
+
+/* Away from the borders of the quarters the pixel has what lies in its direction. */
+static void check_quarters(const char *scene, const char *hdr, const char *const more[2],
+                           bool green_on_the_right) {
+    struct gn_picture picture;
+    struct gn_err err = {0};
+    const char *const args[] = {"--environment", hdr,        "--environment-show",
+                                "yes",           "--output", "linear",
+                                "--size",        "120x120",  more[0],
+                                more[1],         NULL};
+    if (!gn_shot(&picture, NULL, &err, "pfm", scene, args)) fail_msg("%s", err.text);
+    for (int y = 2; y < 118; y++)
+        for (int x = 2; x < 118; x++) {
+            if (abs(x - 60) < 6 || abs(y - 60) < 6) continue;
+            const float *p = gn_picture_at(&picture, x, y);
+            const bool right = x > 60, above = y < 60;
+            const bool green = right == green_on_the_right;
+            if (fabsf(p[0] - (above ? 1 : 0)) > .05f || fabsf(p[1] - (green ? 1 : 0)) > .05f ||
+                fabsf(p[2] - 1) > .05f)
+                fail_msg("%s %s: %d, %d: %.2f %.2f %.2f", more[0], more[1], x, y, (double)p[0],
+                         (double)p[1], (double)p[2]);
+        }
+    gn_picture_finish(&picture);
+}
+
+static void test_it_is_seen_where_it_is(void **state) {
+    (void)state;
+    char scene[600], hdr[600];
+    snprintf(scene, sizeof scene, "%s/view.glb", folder);
+    snprintf(hdr, sizeof hdr, "%s/quarters.hdr", folder);
+    write_view(scene, false);
+    write_quarters(hdr);
+    check_quarters(scene, hdr, (const char *[]){"--time", "0"}, true);
+    check_quarters(scene, hdr, (const char *[]){"--environment-turn", "90"}, false);
+    /* reflected in a mirror, +Z is before the camera */
+    write_view(scene, true);
+    check_quarters(scene, hdr, (const char *[]){"--environment-turn", "180"}, false);
+    check_quarters(scene, hdr, (const char *[]){"--environment-turn", "270"}, true);
+    unlink(scene);
+    unlink(hdr);
+}
+
+static void test_it_is_as_bright_as_in_reflections(void **state) {
+    (void)state;
+    char scene[600];
+    snprintf(scene, sizeof scene, "%s/view.glb", folder);
+    write_view(scene, false);
+    static const char *const ways[] = {"yes", "blur"};
+    for (int i = 0; i < 2; i++) {
+        struct gn_picture picture;
+        struct gn_err err = {0};
+        const char *const args[] = {"--environment",
+                                    half,
+                                    "--environment-show",
+                                    ways[i],
+                                    "--environment-strength",
+                                    "0.5",
+                                    "--output",
+                                    "linear",
+                                    "--exposure",
+                                    "1",
+                                    "--size",
+                                    "40x30",
+                                    NULL};
+        if (!gn_shot(&picture, NULL, &err, "pfm", scene, args)) fail_msg("%s", err.text);
+        for (int k = 0; k < 40 * 30 * 3; k++) assert_true(fabsf(picture.data[k] - .5f) < .01f);
+        gn_picture_finish(&picture);
+    }
+    unlink(scene);
+}
+
 /* ---- what is kept ---- */
 
 static int list_kept(char path[700]) {
@@ -260,6 +363,8 @@ int main(void) {
         cmocka_unit_test(test_white_spheres_lose_nothing_in_uniform_light),
         cmocka_unit_test(test_strength_and_exposure_are_factors),
         cmocka_unit_test(test_the_environment_turns),
+        cmocka_unit_test(test_it_is_seen_where_it_is),
+        cmocka_unit_test(test_it_is_as_bright_as_in_reflections),
         cmocka_unit_test(test_a_file_is_kept_and_a_broken_one_is_renewed),
         cmocka_unit_test(test_kept_files_are_used_and_few),
         cmocka_unit_test(test_a_bad_file_is_one_line),

@@ -83,12 +83,44 @@ static void test_reflections_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* After what is opaque, before what is blended over it; and where the whole picture is toned last.
+ */
+static void test_backdrop_plan(void **state) {
+    (void)state;
+    static const struct gn_environment environment;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.tone = GN_TONE_NEUTRAL;
+    f.opts.environment = (struct gn_frame_environment_opts){.of = &environment,
+                                                            .id = 2,
+                                                            .reflected_only = true,
+                                                            .show = GN_ENVIRONMENT_SHOW_BLUR,
+                                                            .strength = 1};
+    gn_plan_expect(gn_plan_make(&f), "backdrop");
+    const uint32_t passes = gn_plan_make(&f)->pass_count;
+    f.opts.environment.show = GN_ENVIRONMENT_SHOW_NO;
+    assert_int_equal(gn_plan_make(&f)->pass_count, passes - 1);
+    f.opts.environment.show = GN_ENVIRONMENT_SHOW_SHARP;
+    assert_int_equal(gn_plan_make(&f)->pass_count, passes);
+    f.opts.debug.aov = GN_AOV_NORMAL; /* no AOV shows it */
+    assert_true(gn_plan_make(&f)->pass_count < passes);
+    f.opts.debug.aov = GN_AOV_COLOR;
+    f.opts.background = GN_BACKGROUND_TRANSPARENT; /* holds, where it is kept */
+    assert_int_equal(gn_plan_make(&f)->pass_count, passes);
+    f.opts.keeps_alpha = true;
+    const struct gn_plan *plan = gn_plan_make(&f);
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        assert_int_not_equal(plan->programs[i].kind, GN_PROGRAM_BACKDROP);
+    gn_plan_end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tone_of_many_lights_plan),
         cmocka_unit_test(test_a_tone_is_for_pictures_that_are_looked_at),
         cmocka_unit_test(test_blended_plan),
         cmocka_unit_test(test_reflections_plan),
+        cmocka_unit_test(test_backdrop_plan),
     };
     return RUN(tests);
 }
