@@ -184,7 +184,8 @@ bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settin
     const bool automatic = !name || strcmp(name, "auto") == 0,
                reflected_only = automatic && !scene->added.light;
     opts->environment = (struct gn_frame_environment_opts){0};
-    const enum gn_environment_show show = (enum gn_environment_show)settings->render.environment_show;
+    const enum gn_environment_show show =
+        (enum gn_environment_show)settings->render.environment_show;
     const bool is_seen = !reflected_only || needs_reflections(scene) || show;
     if (automatic) name = is_seen ? "studio" : "none";
     if (strcmp(name, "none") == 0 || strength <= 0.0f) return true;
