@@ -1,5 +1,6 @@
 #include "image/xserver.h"
 
+#include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <dlfcn.h>
@@ -27,6 +28,10 @@
     X(XMapRaised)                                                                                  \
     X(XDestroyWindow)                                                                              \
     X(XInternAtom)                                                                                 \
+    X(XGetWindowProperty)                                                                          \
+    X(XChangeProperty)                                                                             \
+    X(XSetSelectionOwner)                                                                          \
+    X(XCheckTypedEvent)                                                                            \
     X(XSendEvent)                                                                                  \
     X(XWarpPointer)                                                                                \
     X(XKeysymToKeycode)                                                                            \
@@ -142,6 +147,12 @@ static bool is_shown(struct gn_xserver *x, Window window, XWindowAttributes *a) 
     return x->XGetWindowAttributes(x->display, window, a) && a->map_state == IsViewable;
 }
 
+/* "gnomon", or "scene.glb - gnomon" */
+static bool has_name(const char *own, const char *name) {
+    const size_t length = strlen(own), end = strlen(name);
+    return length >= end && strcmp(own + length - end, name) == 0;
+}
+
 static Window find(struct gn_xserver *x, const char *name) {
     Window root, parent, *all = NULL, found = 0;
     XWindowAttributes a;
@@ -150,7 +161,7 @@ static Window find(struct gn_xserver *x, const char *name) {
     for (unsigned i = 0; i < count && !found; i++) {
         char *own = NULL;
         x->XFetchName(x->display, all[i], &own);
-        if (own && strcmp(own, name) == 0 && is_shown(x, all[i], &a)) found = all[i];
+        if (own && has_name(own, name) && is_shown(x, all[i], &a)) found = all[i];
         if (own) x->XFree(own);
     }
     if (all) x->XFree(all);
@@ -181,6 +192,27 @@ bool gn_xserver_grab(struct gn_xserver *x, gn_xwindow window, struct gn_picture 
         }
     XDestroyImage(image);
     return true;
+}
+
+bool gn_xserver_title(struct gn_xserver *x, gn_xwindow window, char *out, size_t size) {
+    char *own = NULL;
+    const bool has = x->XFetchName(x->display, window, &own) && own;
+    snprintf(out, size, "%s", has ? own : "");
+    if (own) x->XFree(own);
+    return has;
+}
+
+size_t gn_xserver_icon(struct gn_xserver *x, gn_xwindow window, unsigned long **out) {
+    Atom type;
+    int format;
+    unsigned long count = 0, left;
+    unsigned char *data = NULL;
+    x->XGetWindowProperty(x->display, window, x->XInternAtom(x->display, "_NET_WM_ICON", False), 0,
+                          1 << 20, False, XA_CARDINAL, &type, &format, &count, &left, &data);
+    *out = calloc(count + 1, sizeof **out);
+    if (data) memcpy(*out, data, count * sizeof **out);
+    if (data) x->XFree(data);
+    return count;
 }
 
 void gn_xserver_resize(struct gn_xserver *x, gn_xwindow window, int width_px, int height_px) {
@@ -251,4 +283,55 @@ void gn_xserver_drag(struct gn_xserver *x, gn_xwindow window, unsigned button, i
     move_to(x, window, column + right_px / 2, row + down_px / 2);
     move_to(x, window, column + right_px, row + down_px);
     press(x, window, button, ButtonRelease);
+}
+
+/* ---- drag and drop (XDND) ---- */
+
+static void send_drop(struct gn_xserver *x, Window from, Window to, const char *kind,
+                      const long data[4]) {
+    XEvent event = {.xclient = {.type = ClientMessage, .window = to, .format = 32}};
+    event.xclient.message_type = x->XInternAtom(x->display, kind, False);
+    event.xclient.data.l[0] = (long)from;
+    for (int i = 0; i < 4; i++) event.xclient.data.l[1 + i] = data[i];
+    x->XSendEvent(x->display, to, False, 0, &event);
+    x->XSync(x->display, False);
+}
+
+/* The window asks for what is dropped: tells it. */
+static bool answer_request(struct gn_xserver *x, const char *text) {
+    XEvent event;
+    if (!x->XCheckTypedEvent(x->display, SelectionRequest, &event)) return false;
+    const XSelectionRequestEvent *r = &event.xselectionrequest;
+    x->XChangeProperty(x->display, r->requestor, r->property, r->target, 8, PropModeReplace,
+                       (const unsigned char *)text, (int)strlen(text));
+    XEvent reply = {.xselection = {.type = SelectionNotify,
+                                   .requestor = r->requestor,
+                                   .selection = r->selection,
+                                   .target = r->target,
+                                   .property = r->property,
+                                   .time = r->time}};
+    x->XSendEvent(x->display, r->requestor, False, 0, &reply);
+    x->XSync(x->display, False);
+    return true;
+}
+
+bool gn_xserver_drop(struct gn_xserver *x, gn_xwindow window, const char *path) {
+    const Window from = x->XCreateSimpleWindow(x->display, x->root, 0, 0, 1, 1, 0, 0, 0);
+    const long uris = (long)x->XInternAtom(x->display, "text/uri-list", False),
+               copy = (long)x->XInternAtom(x->display, "XdndActionCopy", False);
+    char text[600];
+    bool asked = false;
+    snprintf(text, sizeof text, "file://%s\r\n", path);
+    x->XSetSelectionOwner(x->display, x->XInternAtom(x->display, "XdndSelection", False), from,
+                          CurrentTime);
+    send_drop(x, from, window, "XdndEnter", (const long[4]){5l << 24, uris, 0, 0});
+    send_drop(x, from, window, "XdndPosition", (const long[4]){0, 10 << 16 | 10, 0, copy});
+    send_drop(x, from, window, "XdndDrop", (const long[4]){0, 0, 0, 0});
+    for (int i = 0; i < 500 && !asked; i++) {
+        asked = answer_request(x, text);
+        usleep(10000);
+    }
+    x->XDestroyWindow(x->display, from);
+    x->XSync(x->display, False);
+    return asked;
 }

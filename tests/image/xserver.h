@@ -23,6 +23,11 @@ typedef unsigned long gn_xwindow; /* 0: none */
 gn_xwindow gn_xserver_find(struct gn_xserver *x, const char *name, int seconds);
 /* What is in it now, as 3 channels. False while it is not, or not wholly, on the screen. */
 bool gn_xserver_grab(struct gn_xserver *x, gn_xwindow window, struct gn_picture *picture);
+bool gn_xserver_title(struct gn_xserver *x, gn_xwindow window, char *out, size_t size);
+/* Width, height, that many ARGB pixels; again for each icon. How many numbers; the caller frees. */
+size_t gn_xserver_icon(struct gn_xserver *x, gn_xwindow window, unsigned long **out);
+/* A file let go over it. False: the window did not ask for it. */
+bool gn_xserver_drop(struct gn_xserver *x, gn_xwindow window, const char *path);
 void gn_xserver_resize(struct gn_xserver *x, gn_xwindow window, int width_px, int height_px);
 /* A window over everything, and away again. */
 void gn_xserver_cover(struct gn_xserver *x);
