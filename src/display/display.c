@@ -109,6 +109,10 @@ bool gn_display_show_message(struct gn_display *d, const char *text, int64_t now
     return screen_of(d)->show_message && screen_of(d)->show_message(d, text, now_ns);
 }
 
+void gn_display_set_title(struct gn_display *d, const char *title) {
+    if (screen_of(d)->set_title) screen_of(d)->set_title(d, title);
+}
+
 bool gn_display_is_free(const char *name) {
     const struct gn_display_ops *row = find_row(name);
     return row && (!row->screen || !row->screen->is_free || row->screen->is_free());

@@ -105,8 +105,9 @@ struct gn_screen_ops { /* see the functions of the same names */
     void (*lose)(struct gn_display *display, int64_t now_ns); /* NULL: unsupported */
     void (*blank)(struct gn_display *display, bool on, int64_t now_ns);
     bool (*show_message)(struct gn_display *display, const char *text,
-                         int64_t now_ns); /* NULL: unsupported */
-    bool (*is_free)(void);                /* NULL: always */
+                         int64_t now_ns);                             /* NULL: unsupported */
+    bool (*is_free)(void);                                            /* NULL: always */
+    void (*set_title)(struct gn_display *display, const char *title); /* NULL: it has none */
 };
 struct gn_display {
     const struct gn_display_ops *ops;
@@ -150,6 +151,8 @@ void gn_display_blank(struct gn_display *display, bool on, int64_t now_ns);
 /* Shows a text instead of frames, without GL, until the context changes or NULL ends it; if GL does
  * not start, the reason is shown instead. False: unsupported. */
 bool gn_display_show_message(struct gn_display *display, const char *text, int64_t now_ns);
+/* The window's title, copied; no effect on other screens. */
+void gn_display_set_title(struct gn_display *display, const char *title);
 /* Whether that screen could be shown now: a monitor is connected and no other process has it. */
 bool gn_display_is_free(const char *name);
 /* The first other process that has a device open, as "Xorg (pid 612)"; "" and false if none is

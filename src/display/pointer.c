@@ -1,8 +1,9 @@
 #include "display/pointer.h"
 
 bool gn_pointer_is_zero(const struct gn_pointer *h) {
-    return !h->quit && !h->home && h->key_count == 0 && h->turn[0] == 0.0f && h->turn[1] == 0.0f &&
-           h->pan[0] == 0.0f && h->pan[1] == 0.0f && h->wheel == 0.0f;
+    return !h->quit && !h->home && h->key_count == 0 && h->letter_count == 0 && !h->file &&
+           h->turn[0] == 0.0f && h->turn[1] == 0.0f && h->pan[0] == 0.0f && h->pan[1] == 0.0f &&
+           h->wheel == 0.0f;
 }
 
 void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
@@ -14,10 +15,18 @@ void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
     }
     pointer->wheel += more->wheel;
     for (unsigned i = 0; i < more->key_count; i++) gn_pointer_key(pointer, &more->keys[i]);
+    for (unsigned i = 0; i < more->letter_count; i++)
+        gn_pointer_letter(pointer, (unsigned char)more->letters[i]);
+    if (more->file) pointer->file = more->file;
 }
 
 void gn_pointer_key(struct gn_pointer *pointer, const struct gn_key_event *event) {
     if (pointer->key_count < GN_POINTER_KEYS_MAX) pointer->keys[pointer->key_count++] = *event;
+}
+
+void gn_pointer_letter(struct gn_pointer *pointer, unsigned letter) {
+    if (letter > ' ' && letter < 127 && pointer->letter_count < GN_POINTER_LETTERS_MAX)
+        pointer->letters[pointer->letter_count++] = (char)letter;
 }
 
 void gn_pointer_act(struct gn_pointer *pointer, enum gn_pointer_key action) {

@@ -28,6 +28,8 @@
     X(GetEGLSurface)                                                                               \
     X(GetFramebufferSize)                                                                          \
     X(GetWindowSize)                                                                               \
+    X(SetWindowTitle)                                                                              \
+    X(SetWindowIcon)                                                                               \
     X(SetWindowPos)                                                                                \
     X(GetWindowPos)                                                                                \
     X(GetWindowMonitor)                                                                            \
@@ -45,7 +47,8 @@
     X(SetCharCallback)                                                                             \
     X(SetMouseButtonCallback)                                                                      \
     X(SetCursorPosCallback)                                                                        \
-    X(SetScrollCallback)
+    X(SetScrollCallback)                                                                           \
+    X(SetDropCallback)
 
 struct glfw {
     void *library;

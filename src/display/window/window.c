@@ -5,6 +5,7 @@
  * timer paces frames: a vsynced swap blocks forever while the window is hidden. */
 #include <dlfcn.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,6 +16,7 @@
 #include "display/kms/flip.h"
 #include "display/private.h"
 #include "display/window/glfw.h"
+#include "display/window/icon.h"
 #include "display/window/key.h"
 
 /* One per process, like the library. Never terminated: that unloads the driver, which its threads
@@ -36,6 +38,8 @@ struct window {
     struct gn_pointer pointer;
     struct gn_drag drag;
     int windowed[4]; /* x, y, width, height before full screen */
+    char title[200];
+    char dropped[PATH_MAX]; /* the file that pointer.file points to */
 };
 
 #define POLL_NS INT64_C(10000000)
@@ -116,8 +120,19 @@ static void on_key(GLFWwindow *handle, int key, int code, int event, int modifie
 
 /* By character, not by key: layouts differ. */
 static void on_letter(GLFWwindow *handle, unsigned letter) {
+    struct gn_pointer *pointer = &window_of(handle)->pointer;
     if (letter == 'q' || letter == 'Q')
-        gn_pointer_act(&window_of(handle)->pointer, GN_POINTER_QUIT);
+        gn_pointer_act(pointer, GN_POINTER_QUIT);
+    else
+        gn_pointer_letter(pointer, letter);
+}
+
+/* Of several files the first. */
+static void on_drop(GLFWwindow *handle, int count, const char **paths) {
+    struct window *w = window_of(handle);
+    if (count < 1 || strlen(paths[0]) >= sizeof w->dropped) return;
+    snprintf(w->dropped, sizeof w->dropped, "%s", paths[0]);
+    w->pointer.file = w->dropped;
 }
 
 static void on_button(GLFWwindow *handle, int button, int event, int modifiers) {
@@ -268,7 +283,8 @@ static bool make_window(struct window *w, uint32_t width_px, uint32_t height_px,
             glfw.WindowHint(hints[i][0], hints[i][1]);
         glfw.WindowHintString(GLFW_X11_CLASS_NAME, "gnomon");
         glfw.WindowHintString(GLFW_X11_INSTANCE_NAME, "gnomon");
-        w->handle = glfw.CreateWindow((int)width_px, (int)height_px, "gnomon", NULL, NULL);
+        w->handle = glfw.CreateWindow((int)width_px, (int)height_px,
+                                      w->title[0] ? w->title : "gnomon", NULL, NULL);
         if (!w->handle) continue;
         glfw.MakeContextCurrent(w->handle);
         return true;
@@ -289,6 +305,16 @@ static bool window_open(struct gn_display *display, struct gn_warnings *warnings
 
 /* ---- the window as a screen ---- */
 
+/* Desktops take the size that fits. On Wayland windows have no icon of their own. */
+static void set_icon(const struct window *w) {
+    enum { SMALL = 32, LARGE = 64 };
+    static uint8_t small[4 * SMALL * SMALL], large[4 * LARGE * LARGE];
+    gn_window_icon(small, SMALL);
+    gn_window_icon(large, LARGE);
+    const GLFWimage icons[] = {{SMALL, SMALL, small}, {LARGE, LARGE, large}};
+    glfw.SetWindowIcon(w->handle, 2, icons);
+}
+
 /* Everything bound to the window handle, including the context. */
 static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t height_px,
                         struct gn_err *err) {
@@ -305,6 +331,8 @@ static bool make_screen(struct gn_display *display, uint32_t width_px, uint32_t 
     glfw.SetMouseButtonCallback(w->handle, on_button);
     glfw.SetCursorPosCallback(w->handle, on_move);
     glfw.SetScrollCallback(w->handle, on_wheel);
+    glfw.SetDropCallback(w->handle, on_drop);
+    set_icon(w);
     /* X11: the swap waits at most when late, and does not tear */
     glfw.SwapInterval(glfw.link.x_pending ? 1 : 0);
     w->flip = (struct gn_flip){.no_vblank = true,
@@ -415,6 +443,12 @@ static void window_blank(struct gn_display *display, bool on, int64_t now_ns) {
     update_screen(display, now_ns, NULL);
 }
 
+static void window_set_title(struct gn_display *display, const char *title) {
+    struct window *w = display->state;
+    snprintf(w->title, sizeof w->title, "%s", title);
+    if (w->handle) glfw.SetWindowTitle(w->handle, w->title);
+}
+
 static gn_display_proc window_get_proc(struct gn_display *display, const char *name) {
     (void)display;
     return (gn_display_proc)glfw.GetProcAddress(name);
@@ -428,6 +462,7 @@ static const struct gn_screen_ops window_screen_ops = {
     .present = window_present,
     .lose = window_lose,
     .blank = window_blank,
+    .set_title = window_set_title,
 };
 
 const struct gn_display_ops gn_display_window = {
