@@ -6,6 +6,7 @@
 #include "config.h"
 #include "options/buttons.h"
 #include "options/command.h"
+#include "options/viewer_keys.h"
 
 static const char *const sections[] = {"display", "scene", "render", "camera", "light", "kiosk"};
 enum { SECTIONS = sizeof sections / sizeof *sections };
@@ -164,7 +165,8 @@ static void print_keys(void) {
     char keys[60];
     const char *action;
     puts(".SH KEYS AND MOUSE\nIn a window:");
-    print_entries(NULL, gn_help_window_keys);
+    for (const struct gn_viewer_key *key = gn_viewer_keys; key->name; key++)
+        print_tagged(key->name, key->meaning);
     puts(".PP\nIn a window, on the screen and in the terminal, unless the configuration has "
          "buttons of its own:");
     for (int i = 0; gn_help_default_button(i, keys, sizeof keys, &action); i++)

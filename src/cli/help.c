@@ -4,6 +4,7 @@
 
 #include "options/binding.h"
 #include "options/command.h"
+#include "options/viewer_keys.h"
 #include "scene/scene.h"
 #include "shadow/technique.h"
 
@@ -17,16 +18,6 @@ const struct gn_help_entry gn_help_exits[] = {
     {"3", "compare: the pictures differ"},
     {"70", "the display could not be recovered: restart the program"},
     {"130, 143", "another command was interrupted by SIGINT or SIGTERM"},
-    {0},
-};
-
-const struct gn_help_entry gn_help_window_keys[] = {
-    {"left button", "turns the view"},
-    {"right button, shift", "moves it"},
-    {"wheel", "zooms"},
-    {"Home", "resets the view to that of the camera"},
-    {"F11", "full screen, and back"},
-    {"Escape, q", "end the program"},
     {0},
 };
 
@@ -182,7 +173,7 @@ void gn_help_print(FILE *to, enum gn_command command) {
     if (command != GN_COMMAND_AUTO && command != GN_COMMAND_SHOW) return;
     const char *action;
     fputs("\nin a window:\n", to);
-    for (const struct gn_help_entry *key = gn_help_window_keys; key->name; key++)
+    for (const struct gn_viewer_key *key = gn_viewer_keys; key->name; key++)
         print_entry(to, key->name, key->meaning);
     fputs("\nkeys and GPIO lines, unless kiosk.ini has buttons of its own:\n", to);
     for (int i = 0; gn_help_default_button(i, tag, sizeof tag, &action); i++)

@@ -19,7 +19,7 @@ extern const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES];
 struct gn_help_entry {
     const char *name, *meaning;
 };
-extern const struct gn_help_entry gn_help_exits[], gn_help_window_keys[]; /* end with a NULL name */
+extern const struct gn_help_entry gn_help_exits[]; /* ends with a NULL name */
 /* Keys and lines of a button that there is without a configuration: "space, right, n; GPIO17", and
  * the name of its action. False: there are no more. */
 bool gn_help_default_button(int index, char *keys, size_t size, const char **action);

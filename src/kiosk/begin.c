@@ -1,4 +1,5 @@
 /* From arguments to the first mode: shared by start and reload. */
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,18 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
     }
     gn_show_drop_options(o);
     return NULL;
+}
+
+/* Cameras and clips that the settings name are those of another scene. */
+const char *gn_show_put_file(struct gn_options *o, const char *path) {
+    const struct gn_scene_list list = {.paths = {gn_arena_strdup(&o->arena, path)}, .count = 1};
+    const struct gn_option_row *row = gn_option_rows;
+    while (row->offset != offsetof(struct gn_settings, scene.path)) row++;
+    for (int i = 0; i < o->all_count; i++) {
+        gn_settings_put(&o->all[i], row, &list, GN_SOURCE_FLAG, row->name);
+        o->all[i].scene.camera = o->all[i].scene.animation = NULL;
+    }
+    return list.paths[0];
 }
 
 /* One black triangle on black, for the texts that are shown while the first scene loads. */

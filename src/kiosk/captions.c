@@ -21,14 +21,13 @@ void gn_show_open_captions(struct gn_show *s) {
     gn_show_report_error(s, text);
 }
 
-/* The last part of the path; NULL: the built-in scene. */
-static const char *path_name(const char *path) {
+const char *gn_show_path_name(const char *path) {
     const char *slash = path ? strrchr(path, '/') : NULL;
     return !path ? "default scene" : slash ? slash + 1 : path;
 }
 
 static const char *scene_name(const struct gn_show *s, int scene) {
-    return path_name(s->scenes.paths[scene]);
+    return gn_show_path_name(s->scenes.paths[scene]);
 }
 
 void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
@@ -42,7 +41,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
     char loading[200];
     if (!error && s->reload.first) {
         snprintf(loading, sizeof loading, "loading %s ..",
-                 path_name(s->reload.options->settings->scene.path));
+                 gn_show_path_name(s->reload.options->settings->scene.path));
         error = loading;
     }
     gn_captions_set(t->captions, GN_CAPTION_ERROR, error, now_ns);
@@ -54,6 +53,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
         case GN_KIOSK_CAPTION_MODE: text = s->modes.names[view->caption_mode]; break;
         case GN_KIOSK_CAPTION_SCENE: text = scene_name(s, view->caption_scene); break;
         case GN_KIOSK_CAPTION_CAMERA: text = s->stage.scene->cameras[f->view.camera].name; break;
+        case GN_KIOSK_CAPTION_NOTE: text = s->viewer.note; break;
         case GN_KIOSK_CAPTION_PAUSE: text = view->stands ? "pause" : NULL; break;
         default: break;
         }
@@ -62,7 +62,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
                             GN_CAPTION_MODE_NS); /* so that it ends at that time */
     }
 
-    /* the information page */
+    /* the information page, or the help page over it */
     const struct gn_info info = {
         .scene = scene_name(s, view->scene),
         .mode = s->modes.names[view->mode],
@@ -71,9 +71,9 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
         .caps = gn_gl_caps(s->stage.gl),
         .uptime_ns = now_ns - s->counts.begun_ns,
     };
-    if (!view->info) {
+    if (t->help[0] || !view->info) {
         t->page.made = false;
-        gn_captions_set(t->captions, GN_CAPTION_INFO, NULL, now_ns);
+        gn_captions_set(t->captions, GN_CAPTION_INFO, t->help, now_ns);
     } else if (gn_info_page_step(&t->page, &info, now_ns)) {
         gn_captions_set(t->captions, GN_CAPTION_INFO, t->page.text, now_ns);
     }

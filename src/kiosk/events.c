@@ -1,7 +1,9 @@
 /* Actions as events of the machine; problems. */
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "kiosk/private.h"
 
 void gn_show_report_problem(struct gn_show *s, const char *text) {
@@ -15,6 +17,18 @@ void gn_show_report_error(struct gn_show *s, const char *text) {
     if (s->config.options->config_error) return; /* the first one is likely the cause */
     snprintf(s->config.error, sizeof s->config.error, "%s", text);
     s->config.options->config_error = s->config.error;
+    s->changed = true;
+}
+
+void gn_show_note(struct gn_show *s, const char *format, ...) {
+    const struct gn_kiosk_event note = {.kind = GN_KIOSK_NOTE,
+                                        .time_ns = gn_loop_now_ns(s->loop),
+                                        .caption = GN_KIOSK_CAPTION_NOTE};
+    va_list args;
+    va_start(args, format);
+    gn_text_vformat(s->viewer.note, sizeof s->viewer.note, format, args);
+    va_end(args);
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &note);
     s->changed = true;
 }
 

@@ -27,15 +27,13 @@ bool gn_show_wants_frame(const struct gn_show *s) {
 }
 
 /* Fills a requested screenshot from this frame. */
-static void fill_screenshot(struct gn_show *s) {
+static void fill_screenshot(struct gn_show *s, struct gn_screenshot *shot) {
     const struct gn_frame_opts *f = &s->stage.frame_opts;
     struct gn_err err = {0};
-    if (!s->screenshot || !gn_screenshot_is_asked(s->screenshot)) return;
-    uint8_t *rgba =
-        gn_screenshot_begin(s->screenshot, f->width_px, f->height_px, f->turn_deg, &err);
-    if (!rgba || !gn_gl_read_rgba8(s->stage.gl, rgba, &err) ||
-        !gn_screenshot_start(s->screenshot, &err))
-        gn_screenshot_fail(s->screenshot, &err);
+    if (!shot || !gn_screenshot_is_asked(shot)) return;
+    uint8_t *rgba = gn_screenshot_begin(shot, f->width_px, f->height_px, f->turn_deg, &err);
+    if (!rgba || !gn_gl_read_rgba8(s->stage.gl, rgba, &err) || !gn_screenshot_start(shot, &err))
+        gn_screenshot_fail(shot, &err);
 }
 
 static bool draw_frame(struct gn_show *s, struct gn_err *err) {
@@ -54,6 +52,8 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     const uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
     gn_show_take_view(s, &view);
     gn_show_write_captions(s, &view, seen_ns);
+    const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
+    if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */
     if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns + view.time_ns, s->warnings,
                        err))
         return false;
@@ -79,7 +79,8 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
     gn_frame_times_add(&s->counts.times, gn_loop_now_ns(s->loop));
-    fill_screenshot(s);
+    fill_screenshot(s, s->screenshot);
+    fill_screenshot(s, s->viewer.screenshot);
     return !screen->copy_to ||
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
 }

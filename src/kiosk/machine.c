@@ -1,5 +1,6 @@
 #include "kiosk/machine.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static int modes_of(const struct gn_kiosk_rules *rules) {
@@ -18,6 +19,11 @@ bool gn_kiosk_waits(const struct gn_kiosk *s) {
 static void set_caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t time_ns) {
     s->caption = what;
     s->caption_begun_ns = time_ns;
+}
+
+/* The scene's time in that much time. */
+static int64_t scene_time_ns(const struct gn_kiosk *s, int64_t ns) {
+    return s->speed >= 0 ? ns * (1 << s->speed) : ns / (1 << -s->speed);
 }
 
 /* ---- what is wanted ---- */
@@ -191,13 +197,22 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
     case GN_KIOSK_FRAME:
         if (next.seen_ns == 0 && rules->names_first && !next.caption)
             set_caption(&next, GN_KIOSK_CAPTION_MODE, event->time_ns);
-        if (!next.paused && next.seen_ns != 0) next.scene_ns += event->time_ns - next.seen_ns;
+        if (!next.paused && next.seen_ns != 0)
+            next.scene_ns += scene_time_ns(&next, event->time_ns - next.seen_ns);
         next.seen_ns = event->time_ns;
         break;
     case GN_KIOSK_TICK: check_timeouts(rules, &next, event->time_ns); break;
     case GN_KIOSK_READY: enter_wanted(rules, &next, event); break;
     case GN_KIOSK_MODE_FAILED: give_up_mode(&next, event); break;
     case GN_KIOSK_SCENE_FAILED: give_up_scene(rules, &next, event); break;
+    case GN_KIOSK_NOTE: set_caption(&next, event->caption, event->time_ns); break;
+    case GN_KIOSK_CAMERA:
+        next.camera = event->camera;
+        set_caption(&next, GN_KIOSK_CAPTION_CAMERA, event->time_ns);
+        break;
+    case GN_KIOSK_SPEED:
+        if (abs(next.speed + event->by) <= GN_KIOSK_SPEED_MOST) next.speed += event->by;
+        break;
     default: break;
     }
     return next;
@@ -222,7 +237,8 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         const double share = (double)(seen_ns - state->fade_begun_ns) / (double)rules->fade_ns;
         view.old = share <= 0.0 ? 1.0f : share >= 1.0 ? 0.0f : (float)(1.0 - share);
     }
-    if (!state->paused && state->seen_ns != 0) view.time_ns += seen_ns - state->seen_ns;
+    if (!state->paused && state->seen_ns != 0)
+        view.time_ns += scene_time_ns(state, seen_ns - state->seen_ns);
     if (seen_ns - state->caption_begun_ns < caption_duration_ns(rules, state->caption))
         view.caption = state->caption;
     return view;
@@ -242,7 +258,8 @@ int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_ki
 }
 
 void gn_kiosk_print(const struct gn_kiosk *s, FILE *to) {
-    static const char *const captions[] = {"", " mode", " scene", " camera", " pause", " problem"};
+    static const char *const captions[] = {"",       " mode", " scene",  " camera",
+                                           " pause", " note", " problem"};
     fprintf(to, "mode %d scene %d", s->shown.mode, s->shown.scene);
     if (gn_kiosk_waits(s)) fprintf(to, " wants mode %d scene %d", s->wanted.mode, s->wanted.scene);
     fprintf(to, " camera +%u at %.3f s%s%s%s%s%s%s\n", s->camera, (double)s->scene_ns * 1e-9,

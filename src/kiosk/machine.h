@@ -11,7 +11,7 @@
 
 #include "options/action.h"
 
-enum { GN_KIOSK_MODES_MAX = 32, GN_KIOSK_SCENES_MAX = 64 };
+enum { GN_KIOSK_MODES_MAX = 32, GN_KIOSK_SCENES_MAX = 64, GN_KIOSK_SPEED_MOST = 4 };
 
 struct gn_kiosk_rules {                    /* zero means the default written beside */
     int mode_count;                        /* 1 */
@@ -32,6 +32,7 @@ enum gn_kiosk_caption {
     GN_KIOSK_CAPTION_SCENE,
     GN_KIOSK_CAPTION_CAMERA,
     GN_KIOSK_CAPTION_PAUSE,
+    GN_KIOSK_CAPTION_NOTE,    /* a text of the viewer */
     GN_KIOSK_CAPTION_PROBLEM, /* the mode or scene cannot be shown */
 };
 struct gn_kiosk_place {
@@ -43,8 +44,9 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     uint32_t bad_modes;                  /* bits 1 << mode: it failed */
     uint64_t bad_scenes;
     bool paused, blanked, info;
-    int64_t scene_ns;         /* the scene's time in the last frame */
-    int64_t seen_ns;          /* when that frame is on the screen; 0: no frame yet */
+    int speed;        /* logarithm to base 2 of the scene's speed, at most GN_KIOSK_SPEED_MOST */
+    int64_t scene_ns; /* the scene's time in the last frame */
+    int64_t seen_ns;  /* when that frame is on the screen; 0: no frame yet */
     int64_t fade_begun_ns;    /* monotonic; 0: no fade */
     int64_t caption_begun_ns; /* monotonic */
     enum gn_kiosk_caption caption;
@@ -58,6 +60,9 @@ enum gn_kiosk_event_kind {
     GN_KIOSK_READY,        /* `mode` and `scene` can be drawn now */
     GN_KIOSK_MODE_FAILED,  /* `mode` cannot be drawn */
     GN_KIOSK_SCENE_FAILED, /* `scene` cannot be loaded */
+    GN_KIOSK_NOTE,         /* `caption` is to be shown */
+    GN_KIOSK_CAMERA,       /* `camera` is chosen */
+    GN_KIOSK_SPEED,        /* the scene's time goes twice as fast (`by` 1), or half (-1) */
     GN_KIOSK_EVENT_COUNT,
 };
 struct gn_kiosk_event {
@@ -66,6 +71,9 @@ struct gn_kiosk_event {
     enum gn_action_kind action;
     int mode;  /* also of GN_ACTION_MODE; -1: no such mode */
     int scene; /* a number as gn_kiosk_scene() returns it */
+    enum gn_kiosk_caption caption;
+    uint32_t camera; /* as in gn_kiosk */
+    int by;
 };
 
 /* The number of a place's scene: the one that the mode names, else the one of the list. */

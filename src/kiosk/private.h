@@ -14,6 +14,7 @@
 #include "kiosk/shaders.h"
 #include "kiosk/show.h"
 #include "kiosk/stats.h"
+#include "kiosk/viewer.h"
 #include "options/binding.h"
 #include "options/change.h"
 #include "stage/loader.h"
@@ -24,6 +25,8 @@
 struct gn_show_config {
     struct gn_options *options;  /* owned: a reload makes others */
     struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
+    bool waits;                  /* options were set that are not shown yet */
+    const char *file;            /* in place of the options' scene, in their arena; or NULL */
     struct gn_show_place *place; /* NULL: the options say where */
     char error[512];             /* of start or the last reload; options->config_error */
 };
@@ -72,6 +75,8 @@ enum { GN_SHOW_RELOAD = GN_KIOSK_SCENES_MAX /* the number of its scene */, GN_SH
 struct gn_show_reload {
     struct gn_options *options; /* read; NULL: none */
     struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
+    const char *file;           /* as in gn_show_config */
+    bool dropped;               /* the user has just given it */
     bool first;                 /* there is nothing to go back to */
     bool alone;                 /* its scene did not fit on the GPU beside the one that is shown */
     char why[GN_SHOW_WHY];      /* why the built-in scene replaces the first one; "": it does not */
@@ -81,6 +86,7 @@ struct gn_show_reload {
 struct gn_show_text {
     struct gn_captions *captions;
     struct gn_info_page page;
+    char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
     char problem[512];         /* reported last; "" */
@@ -131,7 +137,8 @@ struct gn_show {
     struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
-    bool changed;                     /* the next picture differs: draw it */
+    struct gn_show_viewer viewer;
+    bool changed; /* the next picture differs: draw it */
     bool ends, reloads;
 };
 
@@ -148,6 +155,9 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 
 /* Reads the options again, and begins to load their scene. An unfinished reload is dropped. */
 void gn_show_reload(struct gn_show *show);
+/* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
+ * be loaded a caption has the reason for a while. */
+void gn_show_load_file(struct gn_show *show, const char *path);
 /* The first load: starts it and waits for a second; then frames begin without it. */
 bool gn_show_load_first(struct gn_show *show, struct gn_err *err);
 /* Goes on with either. False: the new configuration cannot be shown and the old one is gone. */
@@ -155,6 +165,8 @@ bool gn_show_step_reload(struct gn_show *show, struct gn_err *err);
 void gn_show_drop_reload(struct gn_show *show);
 
 /* control/answer.c stands here; see control/answer.h. */
+
+/* viewer.c stands here; see viewer.h. */
 
 /* ---- frame.c: from the state to a frame ------------------------------------------------------ */
 
@@ -177,6 +189,14 @@ bool gn_show_is_stale(const struct gn_show *show); /* gn_show_keep_context() is 
 /* Renews a lost context and starts GL in a new one. A failure of GL is shown on the screen. */
 bool gn_show_keep_context(struct gn_show *show, struct gn_err *err);
 void gn_show_stop_gl(struct gn_show *show);
+
+/* ---- set.c: options set while it runs ---------------------------------------------------------
+ */
+
+bool gn_show_set_option(struct gn_show *show, const struct gn_option_row *row, const char *text,
+                        struct gn_err *err);
+/* Shows what was set as soon as its programs are made; to be called after work ahead. */
+void gn_show_enter_set(struct gn_show *show);
 
 /* ---- ahead.c: programs and scenes made ready while others are shown -------------------------- */
 
@@ -212,6 +232,8 @@ void gn_show_drop_staged(struct gn_show *show);
 void gn_show_open_captions(struct gn_show *show);
 /* Sets the texts of the frame of that view. */
 void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *view, int64_t now_ns);
+/* The last part of a path; NULL: the built-in scene. */
+const char *gn_show_path_name(const char *path);
 /* When the texts need another frame; 0: at once, INT64_MAX: never. */
 int64_t gn_show_captions_due_ns(const struct gn_show *show);
 
@@ -228,6 +250,8 @@ void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
 struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
                                         struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);
+/* That scene in all modes. Returns the path's copy, which is the options'. */
+const char *gn_show_put_file(struct gn_options *options, const char *path);
 /* A black stage, and options without any scene; those that there are become a reload's. */
 bool gn_show_load_nothing(struct gn_show *show, struct gn_err *err);
 /* How the options draw the scene of the first load. If that failed, the built-in scene replaces it
@@ -244,6 +268,9 @@ bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
 /* A problem that does not end the kiosk: printed once, and shown by a caption. */
 void gn_show_report_problem(struct gn_show *show, const char *text);
+/* A caption of the viewer, for 2 s. */
+__attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show *show, const char *format,
+                                                        ...);
 /* One that lasts: the caption stays until a reload, and the status has it as config.error. */
 void gn_show_report_error(struct gn_show *show, const char *text);
 

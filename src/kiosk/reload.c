@@ -35,6 +35,8 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     s->config.changes = NULL;
     gn_show_drop_options(s->config.options);
     s->config.options = options;
+    s->config.file = r->file;
+    s->config.waits = false;
     s->stage.settings = options->settings;
     s->stage.frame_opts.view.orbit = (struct gn_orbit){0};
     const bool blanked = s->kiosk.blanked;
@@ -63,8 +65,18 @@ void gn_show_drop_reload(struct gn_show *s) {
 
 /* The last good configuration stays, and the screen shows the error. */
 static void keep_old(struct gn_show *s, const struct gn_err *why) {
+    const bool dropped = s->reload.dropped;
     gn_show_drop_reload(s);
     gn_show_answer_reload(s, why);
+    if (dropped) {
+        const struct gn_kiosk_event failed = {.kind = GN_KIOSK_NOTE,
+                                              .time_ns = gn_loop_now_ns(s->loop),
+                                              .caption = GN_KIOSK_CAPTION_PROBLEM};
+        gn_show_report_problem(s, why->text);
+        s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
+        s->changed = true;
+        return;
+    }
     snprintf(s->config.error, sizeof s->config.error, "%s", why->text);
     s->config.options->config_error = s->config.error;
     s->changed = true;
@@ -82,22 +94,31 @@ static void choose_mode(const struct gn_show *s, struct gn_options *options) {
     if (found) options->settings = &options->all[found];
 }
 
-void gn_show_reload(struct gn_show *s) {
+static void begin_reload(struct gn_show *s, const char *file, bool dropped) {
     struct gn_err why = {0};
-    s->reloads = false;
     if (s->reload.first) return; /* the first load goes on */
     struct gn_options *options = gn_show_read_options(s->config.options, NULL, &why);
     if (options && !options->config_error) {
+        const char *own = file ? gn_show_put_file(options, file) : NULL;
         gn_show_drop_reload(s);
         gn_loader_cancel(s->scenes.loader); /* the list of scenes may change */
         choose_mode(s, options);
         s->reload.options = options;
+        s->reload.file = own;
+        s->reload.dropped = dropped;
         return;
     }
     if (options) gn_fail_usage(&why, "%s", options->config_error);
     gn_show_drop_options(options);
     keep_old(s, &why);
 }
+
+void gn_show_reload(struct gn_show *s) {
+    s->reloads = false;
+    begin_reload(s, s->config.file, false);
+}
+
+void gn_show_load_file(struct gn_show *s, const char *path) { begin_reload(s, path, true); }
 
 /* The mode may have changed while the scene loaded. */
 static void choose_mode_again(const struct gn_show *s, struct gn_options *options) {

@@ -111,6 +111,10 @@ void gn_screenshot_ask(struct gn_screenshot *shot, const char *path, int fd) {
 
 bool gn_screenshot_is_asked(const struct gn_screenshot *shot) { return shot->asked; }
 
+bool gn_screenshot_is_busy(const struct gn_screenshot *shot) {
+    return shot->asked || shot->runs || shot->failed;
+}
+
 uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,
                              unsigned turn_deg, struct gn_err *err) {
     free(shot->rgba);

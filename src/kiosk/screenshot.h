@@ -27,6 +27,7 @@ int gn_screenshot_fd(const struct gn_screenshot *shot); /* readable when one can
  * (-1) to the path, which is copied. Not while another one is under way. */
 void gn_screenshot_ask(struct gn_screenshot *shot, const char *path, int fd);
 bool gn_screenshot_is_asked(const struct gn_screenshot *shot); /* and no frame has filled it */
+bool gn_screenshot_is_busy(const struct gn_screenshot *shot);  /* asked, or not taken yet */
 /* Memory for the frame: RGBA of that size, top row first, turned clockwise by turn_deg (0, 90, 180,
  * 270). Whoever has filled it starts the thread. NULL: no memory. */
 uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,

@@ -28,6 +28,8 @@ static int64_t due_ns(const struct gn_show *s) {
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
+    const int64_t turns_ns = gn_viewer_due_ns(s);
+    if (turns_ns < at_ns) at_ns = turns_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;
@@ -43,9 +45,14 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     if (s->reloads) gn_show_reload(s);
     if (!gn_show_step_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_loop_now_ns(s->loop), err)) return false;
-    const struct gn_pointer pointer = screen->pointer;
+    struct gn_pointer pointer = screen->pointer;
     screen->pointer = (struct gn_pointer){0};
     s->ends |= pointer.quit;
+    if (pointer.file) gn_show_load_file(s, pointer.file);
+    if (s->stage.display.ops->is_window) {
+        gn_viewer_take_keys(s, &pointer);
+        gn_viewer_set_title(s);
+    }
     s->changed |= gn_show_pointer_turn(&s->stage, &pointer);
     gn_show_take_input(s, &pointer);
     if (s->ends) return true;
@@ -97,6 +104,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
 }
 
 void gn_show_close(struct gn_show *s) {
+    gn_viewer_close(s);
     gn_show_close_control(s);
     gn_input_close(s->buttons.input);
     gn_captions_destroy(s->text.captions);

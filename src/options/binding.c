@@ -1,5 +1,10 @@
 #include "options/binding.h"
 
+#include <stdio.h>
+#include <string.h>
+
+#include "core/key.h"
+
 static const struct gn_button_config defaults[] = {
     {.opts = {.name = "next", .line = "GPIO17", .keys = "space right pagedown n", .optional = true},
      .on[GN_GESTURE_PRESS] = {true, {.kind = GN_ACTION_NEXT}}},
@@ -33,6 +38,19 @@ int gn_buttons_opts(const struct gn_buttons *buttons, struct gn_button_opts *out
             if (buttons->items[i].on[g].bound) out[i].gestures |= 1u << g;
     }
     return buttons->count;
+}
+
+bool gn_buttons_have_key(const struct gn_buttons *buttons, unsigned key) {
+    for (int i = 0; i < buttons->count; i++) {
+        char name[40];
+        for (const char *at = buttons->items[i].opts.keys; at && *at;) {
+            const size_t length = strcspn(at, " ");
+            snprintf(name, sizeof name, "%.*s", (int)length, at);
+            if (gn_key_find(name) == key) return true;
+            at += length + strspn(at + length, " ");
+        }
+    }
+    return false;
 }
 
 struct gn_action gn_buttons_action(const struct gn_buttons *buttons,

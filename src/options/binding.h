@@ -24,6 +24,8 @@ void gn_buttons_defaults(struct gn_buttons *out);
 /* Fills the options of an input, an array of GN_BUTTONS_MAX, from the buttons; returns their
  * count. */
 int gn_buttons_opts(const struct gn_buttons *buttons, struct gn_button_opts *out);
+/* Whether a button has that key (enum gn_key). */
+bool gn_buttons_have_key(const struct gn_buttons *buttons, unsigned key);
 /* The action of a gesture; kind GN_ACTION_NONE: none. */
 struct gn_action gn_buttons_action(const struct gn_buttons *buttons,
                                    const struct gn_gesture_event *event);

@@ -98,22 +98,8 @@ static json_t *answer_action(struct gn_show *s, const struct gn_request *r, stru
 
 static json_t *answer_set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_option_row *row = gn_changes_find(r->words[0], err);
-    struct gn_show_looks looks;
     char text[1024];
-    if (!row) return NULL;
-    if (!s->config.changes) s->config.changes = gn_changes_create(s->config.options);
-    if (!gn_changes_set(s->config.changes, row, r->words[1], err)) return NULL;
-    if (!gn_show_look(s, s->stage.scene, &looks, err)) { /* a mode cannot use it */
-        gn_changes_undo(s->config.changes);
-        return NULL;
-    }
-    s->looks = looks;
-    s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
-    s->ahead.idle = false; /* the changed settings have no programs yet */
-    gn_show_take_rules(s);
-    if (!gn_show_reload_is_staged(s)) /* it was prepared with the old options */
-        gn_show_drop_staged(s);
-    s->control->status.waits = true;
+    if (!row || !gn_show_set_option(s, row, r->words[1], err)) return NULL;
     gn_settings_text(s->stage.settings, row, text, sizeof text);
     return json_pack("{s:s, s:o}", "key", row->name, "value", gn_reply_text(text));
 }
@@ -127,14 +113,6 @@ static json_t *answer_get(struct gn_show *s, const struct gn_request *r, struct 
     gn_settings_text(o, row, text, sizeof text);
     return json_pack("{s:s, s:o, s:o}", "key", row->name, "value", gn_reply_text(text), "from",
                      gn_reply_text(given ? gn_settings_label_at(o, row->offset) : "the default"));
-}
-
-/* The old picture stays until the programs are made. */
-void gn_show_enter_set(struct gn_show *s) {
-    if (!s->control || !s->control->status.waits) return;
-    if (s->stage.gl && !(s->looks.ready >> s->kiosk.shown.mode & 1)) return;
-    s->control->status.waits = false;
-    gn_show_enter(s);
 }
 
 /* ---- screenshots ---- */
@@ -205,7 +183,6 @@ static json_t *answer_reload(struct gn_show *s, const struct gn_request *r, stru
 void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
     struct gn_show_control *c = s->control;
     if (!c) return;
-    if (!why) c->status.waits = false;
     const struct gn_request *r = c->reload;
     c->reload = NULL;
     if (r && why) gn_control_refuse(c->control, r, why);

@@ -17,8 +17,6 @@ void gn_show_close_control(struct gn_show *show);
 
 /* Answers the requests that have come, a bounded number. */
 void gn_show_answer_requests(struct gn_show *show);
-/* Shows what `ctl set` changed as soon as its programs are made; to be called after work ahead. */
-void gn_show_enter_set(struct gn_show *show);
 /* Answers the request for a reload; why not NULL: it failed, and nothing has changed. */
 void gn_show_answer_reload(struct gn_show *show, const struct gn_err *why);
 

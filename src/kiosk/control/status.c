@@ -79,7 +79,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_t *reply = json_pack("{s:s, s:i, s:f}", "version", GN_VERSION, "pid", (int)getpid(),
                               "uptime_s", (double)(now_ns - s->counts.begun_ns) * 1e-9);
     json_object_update_new(reply, gn_show_status_short(s));
-    json_object_set_new(reply, "waits", json_boolean(status->waits || gn_kiosk_waits(&s->kiosk)));
+    json_object_set_new(reply, "waits", json_boolean(s->config.waits || gn_kiosk_waits(&s->kiosk)));
     json_object_set_new(reply, "modes", modes);
     if (s->stage.settings->light_count > 0) json_object_set_new(reply, "lights", lights_json(s));
     json_object_set_new(reply, "screen",

@@ -11,7 +11,6 @@
 struct gn_show;
 
 struct gn_show_status {
-    bool waits;        /* options were set that are not shown yet */
     int64_t memory_ns; /* when memory_mb was read; at most once a second */
     double memory_mb;
 };

@@ -1,0 +1,277 @@
+/* Keys of a window. Those that kiosk.ini gives to a button are that button's. */
+#include "kiosk/viewer.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/clock.h"
+#include "kiosk/private.h"
+#include "options/viewer_keys.h"
+
+static const int64_t HOLD_NS = GN_NS_PER_S / 4; /* an arrow that is down longer turns on */
+static const float STEP = 1.0f / 24;            /* turn by a press, in heights of the window */
+static const float TURN_PER_S = 0.5f;
+
+/* ---- the help page ---- */
+
+/* Keys of a button but those that the viewer takes first. */
+static size_t add_button(const struct gn_button_config *button, char *out, size_t size) {
+    size_t used = 0;
+    int place;
+    for (const char *at = button->opts.keys; at && *at && used < size;) {
+        const int length = (int)strcspn(at, " ");
+        char name[40];
+        snprintf(name, sizeof name, "%.*s", length, at);
+        if (!gn_viewer_key_find(gn_key_find(name), &place))
+            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
+        at += length + (int)strspn(at + length, " ");
+    }
+    const char *action = gn_action_name(button->on[GN_GESTURE_PRESS].action.kind);
+    if (used > 0 && used < size)
+        used += (size_t)snprintf(out + used, size - used, ": %s\n", action);
+    return used < size ? used : size - 1;
+}
+
+static void write_help(const struct gn_show *s, char *out, size_t size) {
+    size_t used = 0;
+    for (const struct gn_viewer_key *row = gn_viewer_keys; row->name && used + 1 < size; row++)
+        used += (size_t)snprintf(out + used, size - used, "%s: %s\n", row->name, row->meaning);
+    for (int i = 0; i < s->buttons.map.count && used + 1 < size; i++)
+        used += add_button(&s->buttons.map.items[i], out + used, size - used);
+}
+
+static void show_help(struct gn_show *s, bool on) {
+    s->viewer.helps = on;
+    s->text.help[0] = 0;
+    if (on) write_help(s, s->text.help, sizeof s->text.help);
+    s->changed = true;
+}
+
+/* ---- commands ---- */
+
+static void choose_camera(struct gn_show *s, int number) {
+    const uint32_t count = s->stage.scene->camera_count, place = (uint32_t)number;
+    const struct gn_frame_opts *look = &s->looks.of[s->kiosk.shown.mode].frame_opts;
+    const struct gn_kiosk_event event = {
+        .kind = GN_KIOSK_CAMERA,
+        .time_ns = gn_loop_now_ns(s->loop),
+        .camera = (place + count - (uint32_t)look->view.camera % count) % count};
+    if (place < count)
+        s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    else
+        gn_show_note(s, "the scene has %u camera%s", count, count == 1 ? "" : "s");
+}
+
+static void change_speed(struct gn_show *s, int by) {
+    const struct gn_kiosk_event event = {
+        .kind = GN_KIOSK_SPEED, .time_ns = gn_loop_now_ns(s->loop), .by = by};
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    if (s->kiosk.speed >= 0)
+        gn_show_note(s, "speed %d", 1 << s->kiosk.speed);
+    else
+        gn_show_note(s, "speed 1/%d", 1 << -s->kiosk.speed);
+}
+
+static bool set_option(struct gn_show *s, const char *key, const char *value) {
+    struct gn_err err = {0};
+    if (gn_show_set_option(s, gn_changes_find(key, &err), value, &err)) return true;
+    gn_show_note(s, "%s", err.text);
+    return false;
+}
+
+/* One that is shown becomes none; else the studio, unless the settings name a file. */
+static void change_environment(struct gn_show *s) {
+    const bool shown = s->looks.of[s->kiosk.shown.mode].frame_opts.environment.of;
+    const char *next = shown ? "none" : "studio";
+    if (set_option(s, "environment", next)) gn_show_note(s, "environment: %s", next);
+}
+
+/* All, as the scene begins, then each, then none. */
+static void choose_clip(struct gn_show *s) {
+    const struct gn_scene *scene = s->stage.scene;
+    const int count = (int)scene->animation.clip_count,
+              now = s->looks.of[s->kiosk.shown.mode].clips,
+              next = now == GN_POSE_NONE      ? 0
+                     : now == GN_POSE_DEFAULT ? 0
+                                              : now + 1;
+    char value[16];
+    snprintf(value, sizeof value, "%d", next);
+    if (count == 0)
+        gn_show_note(s, "the scene has no clips");
+    else if (set_option(s, "animation", next < count ? value : "none"))
+        gn_show_note(s, "clip: %s", next < count ? scene->animation.clips[next].name : "none");
+}
+
+/* ---- screenshots ---- */
+
+static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_show *s = user;
+    struct gn_err err = {0};
+    bool ok;
+    (void)events, (void)now_ns;
+    if (!gn_screenshot_take(s->viewer.screenshot, &ok, &err)) return;
+    if (ok)
+        gn_show_note(s, "wrote %s", s->viewer.screenshot_path);
+    else
+        gn_show_note(s, "%s", err.text);
+}
+
+/* The first free gnomon-SCENE-NNN.png. */
+static bool choose_path(const struct gn_show *s, char *path, size_t size) {
+    const char *name = gn_show_path_name(s->scenes.paths[s->scenes.shown]),
+               *dot = strrchr(name, '.');
+    const int length = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
+    for (int i = 1; i < 1000; i++) {
+        struct stat info;
+        snprintf(path, size, "gnomon-%.*s-%03d.png", length, name, i);
+        for (char *c = path; *c; c++)
+            if (*c == ' ' || *c == ':') *c = '-'; /* "default scene" */
+        if (lstat(path, &info) != 0 && errno == ENOENT) return true;
+    }
+    return false;
+}
+
+static bool open_screenshot(struct gn_show *s, struct gn_err *err) {
+    struct gn_show_viewer *v = &s->viewer;
+    if (v->screenshot) return true;
+    v->screenshot = gn_screenshot_create(err);
+    if (!v->screenshot) return false;
+    v->screenshot_done = (struct gn_watch){.fd = gn_screenshot_fd(v->screenshot),
+                                           .events = EPOLLIN,
+                                           .call = finish_screenshot,
+                                           .user = s};
+    return gn_loop_add(s->loop, &v->screenshot_done) ||
+           gn_fail(err, "screenshot: %s", strerror(errno));
+}
+
+static void write_screenshot(struct gn_show *s) {
+    struct gn_show_viewer *v = &s->viewer;
+    struct gn_err err = {0};
+    if (v->screenshot && gn_screenshot_is_busy(v->screenshot)) return;
+    if (!open_screenshot(s, &err)) {
+        gn_show_note(s, "%s", err.text);
+    } else if (!choose_path(s, v->screenshot_path, sizeof v->screenshot_path)) {
+        gn_show_note(s, "screenshot: this folder has 999 of this scene, or cannot be read");
+    } else {
+        gn_screenshot_ask(v->screenshot, v->screenshot_path, -1);
+        s->changed = true;
+    }
+}
+
+/* ---- keys ---- */
+
+static void run_command(struct gn_show *s, enum gn_viewer_command command, int place) {
+    switch (command) {
+    case GN_VIEWER_HELP: show_help(s, true); break;
+    case GN_VIEWER_CAMERA: choose_camera(s, place); break;
+    case GN_VIEWER_ENVIRONMENT: change_environment(s); break;
+    case GN_VIEWER_CLIP: choose_clip(s); break;
+    case GN_VIEWER_SLOWER: change_speed(s, -1); break;
+    case GN_VIEWER_FASTER: change_speed(s, 1); break;
+    case GN_VIEWER_SCREENSHOT: write_screenshot(s); break;
+    case GN_VIEWER_RELOAD:
+        gn_show_note(s, "reloading ..");
+        s->reloads = true;
+        break;
+    default: break;
+    }
+}
+
+/* The first key on a dark screen switches it on, and one on the help page ends that: nothing else.
+ */
+static bool only_wakes(struct gn_show *s) {
+    const struct gn_action wake = {.kind = GN_ACTION_BLANK};
+    if (s->kiosk.blanked)
+        gn_show_act(s, &wake, gn_loop_now_ns(s->loop));
+    else if (s->viewer.helps)
+        show_help(s, false);
+    else
+        return false;
+    return true;
+}
+
+static void turn(struct gn_pointer *pointer, unsigned arrows, float by) {
+    pointer->turn[0] += by * (float)((int)(arrows >> 1 & 1) - (int)(arrows & 1));
+    pointer->turn[1] += by * (float)((int)(arrows >> 2 & 1) - (int)(arrows >> 3 & 1));
+}
+
+static void take_arrow(struct gn_show *s, struct gn_pointer *pointer, int place, bool down) {
+    struct gn_show_viewer *v = &s->viewer;
+    v->held &= ~(1u << place);
+    if (!down) return;
+    turn(pointer, 1u << place, STEP);
+    v->held |= 1u << place;
+    v->turned_ns = gn_loop_now_ns(s->loop) + HOLD_NS;
+}
+
+static bool is_bound(const struct gn_show *s, unsigned key) {
+    const struct gn_buttons *own = s->config.options->buttons;
+    return own && gn_buttons_have_key(own, key);
+}
+
+static unsigned key_of_letter(char letter) {
+    const char name[2] = {letter, 0};
+    return gn_key_find(name);
+}
+
+void gn_viewer_take_keys(struct gn_show *s, struct gn_pointer *pointer) {
+    struct gn_show_viewer *v = &s->viewer;
+    bool woke = false; /* by one of these keys, whose letter is among the letters, too */
+    unsigned kept = 0;
+    for (unsigned i = 0; i < pointer->key_count; i++) {
+        const struct gn_key_event *event = &pointer->keys[i];
+        int place = 0;
+        const struct gn_viewer_key *row = gn_viewer_key_find(event->key, &place);
+        const bool bound = is_bound(s, event->key);
+        if (event->down && v->helps && only_wakes(s)) {
+            woke = true;
+        } else if (!row || bound) {
+            pointer->keys[kept++] = *event;
+        } else if (event->down && only_wakes(s)) {
+            woke = true;
+        } else if (row->command == GN_VIEWER_ORBIT) {
+            take_arrow(s, pointer, place, event->down);
+        } else if (event->down) {
+            run_command(s, row->command, place);
+        }
+    }
+    pointer->key_count = kept;
+    for (unsigned i = 0; i < pointer->letter_count && !woke; i++) {
+        const struct gn_viewer_key *row = gn_viewer_letter_find(pointer->letters[i]);
+        if (row && !is_bound(s, key_of_letter(pointer->letters[i])) && !only_wakes(s))
+            run_command(s, row->command, 0);
+    }
+    if (pointer->key_count + pointer->letter_count > 0 || v->held)
+        s->kiosk.used_ns = gn_loop_now_ns(s->loop);
+
+    /* arrows that are held down */
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
+    if (!v->held || now_ns <= v->turned_ns) return;
+    turn(pointer, v->held, TURN_PER_S * (float)((double)(now_ns - v->turned_ns) * 1e-9));
+    v->turned_ns = now_ns;
+}
+
+int64_t gn_viewer_due_ns(const struct gn_show *s) {
+    const bool turns = s->viewer.held && s->stage.display.screen.may_draw;
+    return turns ? s->viewer.turned_ns : INT64_MAX;
+}
+
+void gn_viewer_set_title(struct gn_show *s) {
+    char title[sizeof s->viewer.title];
+    const char *path = s->reload.first ? s->reload.options->settings->scene.path
+                                       : s->scenes.paths[s->scenes.shown];
+    snprintf(title, sizeof title, "%.150s - gnomon", gn_show_path_name(path));
+    if (strcmp(title, s->viewer.title) == 0) return;
+    snprintf(s->viewer.title, sizeof s->viewer.title, "%s", title);
+    gn_display_set_title(&s->stage.display, title);
+}
+
+void gn_viewer_close(struct gn_show *s) {
+    gn_loop_remove(&s->viewer.screenshot_done);
+    gn_screenshot_destroy(s->viewer.screenshot);
+    s->viewer.screenshot = NULL;
+}

@@ -1,0 +1,31 @@
+/* A kiosk in a window as a viewer: its keys (options/viewer_keys.h), title and screenshots. */
+#ifndef GN_KIOSK_VIEWER_H
+#define GN_KIOSK_VIEWER_H
+
+#include "core/loop.h"
+#include "display/pointer.h"
+#include "kiosk/screenshot.h"
+
+struct gn_show;
+
+struct gn_show_viewer { /* zeroed: not a window, or no key yet */
+    unsigned held;      /* arrows that are down: bits 1 << place in their row */
+    int64_t turned_ns;  /* up to when the view has turned for them */
+    bool helps;         /* the help page is shown */
+    char note[300];     /* text of GN_KIOSK_CAPTION_NOTE */
+    char title[200];
+    struct gn_screenshot *screenshot; /* NULL: none yet */
+    struct gn_watch screenshot_done;
+    char screenshot_path[400];
+};
+
+/* Takes the keys that are the viewer's out of the pointer, and acts on them; arrows become turns
+ * there. Not those that the configuration gives to a button. */
+void gn_viewer_take_keys(struct gn_show *show, struct gn_pointer *pointer);
+/* When it is due by itself: an arrow is held down. INT64_MAX: never. */
+int64_t gn_viewer_due_ns(const struct gn_show *show);
+/* "sundial.glb - gnomon" */
+void gn_viewer_set_title(struct gn_show *show);
+void gn_viewer_close(struct gn_show *show);
+
+#endif
