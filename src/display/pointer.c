@@ -2,8 +2,8 @@
 
 bool gn_pointer_is_zero(const struct gn_pointer *h) {
     return !h->quit && !h->home && h->key_count == 0 && h->letter_count == 0 && !h->file &&
-           h->turn[0] == 0.0f && h->turn[1] == 0.0f && h->pan[0] == 0.0f && h->pan[1] == 0.0f &&
-           h->wheel == 0.0f;
+           !h->pressed && !h->dragged && !h->released && h->turn[0] == 0.0f && h->turn[1] == 0.0f &&
+           h->pan[0] == 0.0f && h->pan[1] == 0.0f && h->wheel == 0.0f;
 }
 
 void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
@@ -18,6 +18,11 @@ void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
     for (unsigned i = 0; i < more->letter_count; i++)
         gn_pointer_letter(pointer, (unsigned char)more->letters[i]);
     if (more->file) pointer->file = more->file;
+    if (more->pressed) pointer->press_x = more->press_x;
+    if (more->dragged) pointer->drag_x = more->drag_x;
+    pointer->pressed |= more->pressed;
+    pointer->dragged |= more->dragged;
+    pointer->released |= more->released;
 }
 
 void gn_pointer_key(struct gn_pointer *pointer, const struct gn_key_event *event) {

@@ -26,6 +26,9 @@ struct gn_pointer {        /* zeroed: no input */
     char letters[GN_POINTER_LETTERS_MAX]; /* ASCII characters typed, but the window's own: as the
                                              layout has them; the excess is dropped */
     unsigned letter_count;
+    /* the left button, to the right in widths of the window: for a handle that is dragged */
+    bool pressed, dragged, released;
+    float press_x, drag_x;
     const char *file; /* dropped onto the window, until the next one is; NULL: none */
 };
 bool gn_pointer_is_zero(const struct gn_pointer *pointer);

@@ -1,4 +1,4 @@
-/* Cross-fades: a finished picture is kept and blended over later ones. */
+/* Cross-fades and split screens: a finished picture is kept and laid over later ones. */
 #include "gl/private.h"
 
 static const char fade_vertex[] = "#version 300 es\n"
@@ -101,4 +101,30 @@ void gn_gl_lay_over(struct gn_gl *gl, float share) {
     GL(gl, Uniform4fv)(k->u_share, 1, (const float[4]){share, 0, 0, 0});
     gn_gl_bind_vertex_array(gl, k->vertices);
     GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
+}
+
+void gn_gl_lay_beside(struct gn_gl *gl, uint32_t columns_px) {
+    const struct gn_gl_kept *k = &gl->kept;
+    const struct gn_gl_output *o = &gl->targets.output;
+    const GLuint to = gn_gl_output_finished(o);
+    const GLint w = (GLint)(columns_px < o->width_px ? columns_px : o->width_px),
+                h = (GLint)o->height_px;
+    if (!fits(k, o) || w == 0) return;
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_color_write(gl, true);
+    gn_gl_bind_framebuffer(gl, to);
+    GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, k->framebuffer);
+    GL(gl, BlitFramebuffer)(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, to); /* as the cache says */
+}
+
+void gn_gl_fill(struct gn_gl *gl, const struct gn_rect *part, float grey) {
+    const struct gn_gl_rect rect = {(GLint)part->x, (GLint)part->y, (GLsizei)part->width,
+                                    (GLsizei)part->height};
+    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(&gl->targets.output));
+    gn_gl_set_scissor(gl, &rect);
+    gn_gl_set_color_write(gl, true);
+    gn_gl_set_clear_color(gl, (const float[4]){grey, grey, grey, 1});
+    GL(gl, Clear)(GL_COLOR_BUFFER_BIT);
+    gn_gl_set_scissor(gl, NULL);
 }

@@ -24,6 +24,8 @@ void gn_show_forget_work(struct gn_show *s) {
     gn_frame_destroy(s->scenes.frame);
     s->scenes.frame = NULL;
     s->fade.prepared = false;
+    gn_frame_destroy(s->split.frame);
+    s->split.frame = NULL;
 }
 
 void gn_show_drop_staged(struct gn_show *s) {
@@ -180,6 +182,8 @@ void gn_show_take_staged(struct gn_show *s) {
     struct gn_stage *stage = &s->stage;
     struct gn_loaded *staged = scenes->staged;
     const struct gn_loaded shown = {.scene = stage->scene, .pose = stage->pose};
+    gn_frame_destroy(s->split.frame); /* it is of the other scene */
+    s->split.frame = NULL;
     if (stage->gl) {
         gn_gl_stage_show(stage->gl);
         gn_frame_destroy(stage->frame);
@@ -366,7 +370,7 @@ void gn_show_advance(struct gn_show *s) {
     }
 
     /* a fade starts from the last picture, which is drawn once more and kept */
-    if (s->rules.fade_ns > 0 && s->stage.gl && s->stage.display.screen.lit &&
+    if (s->rules.fade_ns > 0 && !s->split.on && s->stage.gl && s->stage.display.screen.lit &&
         s->counts.frames > 0 && !s->fade.kept && !s->kiosk.blanked)
         s->fade.keeps = true;
     else

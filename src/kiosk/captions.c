@@ -50,7 +50,13 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
         t->since_ns = s->kiosk.caption_begun_ns;
         const char *text = NULL;
         switch (view->caption) {
-        case GN_KIOSK_CAPTION_MODE: text = s->modes.names[view->caption_mode]; break;
+        case GN_KIOSK_CAPTION_MODE:
+            text = s->modes.names[view->caption_mode];
+            if (!s->split.on) break;
+            snprintf(t->modes, sizeof t->modes, "%.50s | %.50s", s->modes.names[s->split.left],
+                     text);
+            text = t->modes;
+            break;
         case GN_KIOSK_CAPTION_SCENE: text = scene_name(s, view->caption_scene); break;
         case GN_KIOSK_CAPTION_CAMERA: text = s->stage.scene->cameras[f->view.camera].name; break;
         case GN_KIOSK_CAPTION_NOTE: text = s->viewer.note; break;

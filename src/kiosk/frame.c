@@ -54,10 +54,15 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     gn_show_write_captions(s, &view, seen_ns);
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
     if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */
-    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns + view.time_ns, s->warnings,
-                       err))
-        return false;
-    if (view.old > 0.0f) gn_gl_lay_over(s->stage.gl, view.old);
+    const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
+    bool left_is_behind = false;
+    if (s->split.on && !gn_split_draw_left(s, scene_ns, &left_is_behind, err)) return false;
+    if (!gn_stage_draw(&s->stage, scene_ns, s->warnings, err)) return false;
+    s->stage.is_behind |= left_is_behind;
+    if (s->split.on)
+        gn_split_lay_over(s);
+    else if (view.old > 0.0f)
+        gn_gl_lay_over(s->stage.gl, view.old);
     if (s->fade.keeps) { /* this picture is the start of a fade */
         struct gn_err why = {0};
         if (!gn_gl_keep(s->stage.gl, &why)) {

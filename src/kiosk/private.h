@@ -13,6 +13,7 @@
 #include "kiosk/service.h"
 #include "kiosk/shaders.h"
 #include "kiosk/show.h"
+#include "kiosk/split.h"
 #include "kiosk/stats.h"
 #include "kiosk/viewer.h"
 #include "options/binding.h"
@@ -90,6 +91,7 @@ struct gn_show_text {
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
     char problem[512];         /* reported last; "" */
+    char modes[120];           /* of the split screen */
 };
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
@@ -138,6 +140,7 @@ struct gn_show {
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
     struct gn_show_viewer viewer;
+    struct gn_show_split split;
     bool changed; /* the next picture differs: draw it */
     bool ends, reloads;
 };
@@ -172,6 +175,8 @@ void gn_show_drop_reload(struct gn_show *show);
 
 bool gn_show_wants_frame(const struct gn_show *show);
 bool gn_show_frame(struct gn_show *show, struct gn_err *err);
+
+/* split.c stands here; see split.h. */
 
 /* ---- screen.c: the display and its context --------------------------------------------------- */
 

@@ -50,6 +50,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     s->ends |= pointer.quit;
     if (pointer.file) gn_show_load_file(s, pointer.file);
     if (s->stage.display.ops->is_window) {
+        gn_split_take_pointer(s, &pointer);
         gn_viewer_take_keys(s, &pointer);
         gn_viewer_set_title(s);
     }
@@ -111,6 +112,7 @@ void gn_show_close(struct gn_show *s) {
     if (s->scenes.loader) gn_show_drop_reload(s);
     gn_show_close_loader(s);
     gn_show_drop_staged(s);
+    gn_split_end(s);
     gn_stage_close(&s->stage);
     gn_show_stats_close(&s->stats);
     gn_shader_files_close(&s->shaders);

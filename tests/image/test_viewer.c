@@ -250,6 +250,79 @@ static void test_f12_writes_the_picture_without_texts_beside_earlier_ones(void *
     help_remove(folder);
 }
 
+/* ---- the split screen ---- */
+
+static void grab_still(struct window_shown *s, struct gn_picture *out) {
+    for (int i = 0; i < 500 && !gn_xserver_grab(window_server, s->window, out); i++) usleep(20000);
+    assert_non_null(out->data);
+}
+
+/* Left of the line one, right of it the other, to the byte; the line is black and white. */
+static bool is_split(const struct gn_picture *p, const struct gn_picture *left,
+                     const struct gn_picture *right, int line) {
+    for (int y = 0; y < p->height_px; y++)
+        for (int x = 0; x < p->width_px; x++) {
+            const float *now = gn_picture_at(p, x, y);
+            if (x >= line - 2 && x < line + 2) {
+                if (now[1] != (x == line - 2 || x == line + 1 ? 0.0f : 1.0f)) return false;
+                continue;
+            }
+            const struct gn_picture *side = x < line ? left : right;
+            if (memcmp(now, gn_picture_at(side, x, y), 3 * sizeof *now) != 0) return false;
+        }
+    return true;
+}
+
+static void assert_splits(struct window_shown *s, const struct gn_picture *left,
+                          const struct gn_picture *right, int line, const char *name) {
+    struct gn_picture now = {0};
+    bool right_one = false;
+    for (int i = 0; i < 1000 && !right_one; i++) {
+        gn_picture_finish(&now);
+        now = (struct gn_picture){0};
+        usleep(20000);
+        right_one =
+            gn_xserver_grab(window_server, s->window, &now) && is_split(&now, left, right, line);
+    }
+    if (!right_one && now.data) gn_compare_save(NULL, name, &now, right);
+    gn_picture_finish(&now);
+    if (!right_one) fail_msg("%s: not split at %d", name, line);
+}
+
+static void test_x_splits_the_screen_and_the_mouse_drags_the_line(void **state) {
+    (void)state;
+    struct window_shown s;
+    struct gn_picture a = {0}, b = {0};
+    show_quietly(&s, window_scene,
+                 "[mode \"A\"]\nshadow = pcf\n[mode \"B\"]\nshadow = none\n"
+                 "[mode \"C\"]\nshadow = hard\n");
+    assert_shows(&s, window_scene, (const char *const[]){"--shadow", "pcf", NULL}, "viewer-a");
+    grab_still(&s, &a);
+    press(&s, XK_x); /* A left, B right */
+    sleep(1);
+    press(&s, XK_x); /* B alone */
+    assert_shows(&s, window_scene, (const char *const[]){"--shadow", "none", NULL}, "viewer-b");
+    grab_still(&s, &b);
+    assert_memory_not_equal(a.data, b.data, sizeof(float) * 3 * 320 * 240);
+    press(&s, XK_p);
+    assert_shows(&s, window_scene, (const char *const[]){"--shadow", "pcf", NULL}, "viewer-a");
+    press(&s, XK_Tab);
+    assert_splits(&s, &a, &b, 160, "viewer-split");
+    gn_xserver_drag(window_server, s.window, 1, 60, 10);
+    assert_splits(&s, &a, &b, 220, "viewer-split-dragged");
+    press(&s, XK_p); /* the right side changes modes */
+    assert_splits(&s, &a, &a, 220, "viewer-split-same");
+    press(&s, XK_n);
+    assert_splits(&s, &a, &b, 220, "viewer-split-again");
+    gn_xserver_drag(window_server, s.window, 1, 40, 0); /* not on the line: turns both */
+    sleep(1);
+    press(&s, XK_Home);
+    assert_splits(&s, &a, &b, 220, "viewer-split-home");
+    gn_picture_finish(&a);
+    gn_picture_finish(&b);
+    window_stop(&s);
+}
+
 /* An argument is a pattern of tests: "*drop*". */
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
@@ -265,6 +338,8 @@ int main(int argc, char **argv) {
                                   window_clear_up),
         cmocka_unit_test_teardown(test_e_switches_the_environment, window_clear_up),
         cmocka_unit_test_teardown(test_f12_writes_the_picture_without_texts_beside_earlier_ones,
+                                  window_clear_up),
+        cmocka_unit_test_teardown(test_x_splits_the_screen_and_the_mouse_drags_the_line,
                                   window_clear_up),
     };
     if (argc > 1) cmocka_set_test_filter(argv[1]);

@@ -135,13 +135,24 @@ static void on_drop(GLFWwindow *handle, int count, const char **paths) {
     w->pointer.file = w->dropped;
 }
 
+static float across_window(const struct window *w, double x) {
+    int width = 0, height = 0;
+    glfw.GetWindowSize(w->handle, &width, &height);
+    return width > 0 ? (float)(x / width) : 0.0f;
+}
+
 static void on_button(GLFWwindow *handle, int button, int event, int modifiers) {
     if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
     const enum gn_button which = button == GLFW_MOUSE_BUTTON_LEFT    ? GN_BUTTON_LEFT
                                  : button == GLFW_MOUSE_BUTTON_RIGHT ? GN_BUTTON_RIGHT
                                                                      : GN_BUTTON_MIDDLE;
-    gn_drag_button(&window_of(handle)->drag, which, event == GLFW_PRESS,
-                   modifiers & GLFW_MOD_SHIFT);
+    struct window *w = window_of(handle);
+    gn_drag_button(&w->drag, which, event == GLFW_PRESS, modifiers & GLFW_MOD_SHIFT);
+    if (which != GN_BUTTON_LEFT) return;
+    const bool presses = event == GLFW_PRESS && !(modifiers & GLFW_MOD_SHIFT);
+    w->pointer.pressed |= presses;
+    w->pointer.released |= event == GLFW_RELEASE;
+    if (presses) w->pointer.press_x = across_window(w, w->drag.x);
 }
 
 static void on_move(GLFWwindow *handle, double x, double y) {
@@ -149,6 +160,9 @@ static void on_move(GLFWwindow *handle, double x, double y) {
     int width = 0, height = 0;
     glfw.GetWindowSize(handle, &width, &height);
     gn_drag_move(&w->drag, x, y, height, &w->pointer);
+    if (!w->drag.drags || w->drag.pans || width <= 0) return;
+    w->pointer.dragged = true;
+    w->pointer.drag_x = (float)(x / width);
 }
 
 static void on_wheel(GLFWwindow *handle, double x, double y) {

@@ -1,0 +1,31 @@
+/* The split screen of a window: the same moment in two modes, on either side of a line that the
+ * mouse drags. Each frame draws the left mode, keeps that picture, draws the mode that is shown,
+ * and lays the kept part over it. */
+#ifndef GN_KIOSK_SPLIT_H
+#define GN_KIOSK_SPLIT_H
+
+#include <stdbool.h>
+
+#include "core/err.h"
+#include "display/pointer.h"
+
+struct gn_show;
+
+struct gn_show_split {      /* zeroed: off */
+    bool on, grips;         /* grips: the mouse drags the line */
+    int left;               /* mode on the left; on the right is the one that is shown */
+    float at;               /* place of the line: 0 the window's left edge, 1 its right */
+    struct gn_frame *frame; /* builds the left plans; NULL: none yet */
+};
+
+/* On: the shown mode goes to the left, and the next one is shown on the right; off: that stays. */
+void gn_split_toggle(struct gn_show *show);
+void gn_split_end(struct gn_show *show);
+/* A drag that begins near the line moves it, and does not turn the view. */
+void gn_split_take_pointer(struct gn_show *show, struct gn_pointer *pointer);
+/* Before the frame of the shown mode, at the same time of the scene; *behind: wants another frame.
+ */
+bool gn_split_draw_left(struct gn_show *show, int64_t time_ns, bool *behind, struct gn_err *err);
+void gn_split_lay_over(struct gn_show *show); /* after it */
+
+#endif
