@@ -26,7 +26,7 @@ bool gn_cli_show_here(const struct gn_options *options, bool *shown, struct gn_w
             *err = why;
             return ok;
         }
-        if (options->settings->run.verbose) gn_warn(warnings, "no window: %s", why.text);
+        gn_warn(warnings, "no window: %s", why.text);
     }
     if (is_backend(backend, "kms") || (automatic && !has_desktop() && gn_display_is_free("kms")))
         return gn_cli_show(options, warnings, err);

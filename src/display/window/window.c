@@ -269,7 +269,13 @@ static struct window *create_window(struct gn_display *display, struct gn_err *e
         if (!glfw.link.name) gn_window_link_open(&glfw.link, glfw.library);
         return w;
     }
-    gn_fail(err, "no display server found (%s); check WAYLAND_DISPLAY and DISPLAY", glfw_error());
+    const char *wayland = getenv("WAYLAND_DISPLAY"), *x11 = getenv("DISPLAY");
+    if (wayland && *wayland && !(x11 && *x11) && !dlsym(glfw.library, "glfwGetWaylandDisplay"))
+        gn_fail(err, "this libglfw.so.3 is for X11 alone, and DISPLAY is not set: install "
+                     "libglfw3-wayland in its place, or xwayland");
+    else
+        gn_fail(err, "no display server found (%s); check WAYLAND_DISPLAY and DISPLAY",
+                glfw_error());
     window_close(display);
     return NULL;
 }
