@@ -78,6 +78,16 @@ const struct gn_atlas_glyph *gn_atlas_glyph(struct gn_atlas *atlas, struct gn_fo
     }
     struct gn_atlas_glyph *g = &atlas->glyphs[atlas->count++];
     *g = (struct gn_atlas_glyph){.code = code, .line_px = font->line_px};
+    if (code == GN_ATLAS_SOLID) {
+        const uint32_t side = g->line_px / 2 + 1;
+        uint8_t *coverage = gn_xalloc((size_t)side * side, 1);
+        memset(coverage, 255, (size_t)side * side);
+        from = (struct gn_glyph){
+            .width_px = side, .height_px = side, .stride = side, .coverage = coverage};
+        fill_glyph(atlas, g, &from);
+        free(coverage);
+        return g;
+    }
     if (gn_font_glyph(font, code, &from)) {
         fill_glyph(atlas, g, &from);
         return g;

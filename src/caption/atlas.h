@@ -6,6 +6,8 @@
 #include "caption/run.h"
 
 enum { GN_ATLAS_GLYPHS_MAX = 512, GN_ATLAS_SIDE_MAX = 2048 };
+/* No character: a square that is covered wholly, half a line of the font high. */
+#define GN_ATLAS_SOLID UINT32_C(0xffffffff)
 
 struct gn_atlas_glyph {
     uint32_t code, line_px;                   /* which, how large */

@@ -38,10 +38,11 @@ struct gn_captions {
     struct gn_atlas atlas;
     struct gn_caption_run run;
     struct gn_caption_quad quads[QUADS_MAX];
-    uint32_t bottom_px; /* height in use at the picture's lower edge */
-    int64_t shown_ns;   /* time of the last run */
-    bool changed;       /* since then */
-    bool stale;         /* the quads show other texts */
+    uint32_t bar_percent; /* filled, plus 1; 0: no bar */
+    uint32_t bottom_px;   /* height in use at the picture's lower edge */
+    int64_t shown_ns;     /* time of the last run */
+    bool changed;         /* since then */
+    bool stale;           /* the quads show other texts */
 };
 
 struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts) {
@@ -77,6 +78,13 @@ void gn_captions_set(struct gn_captions *c, enum gn_caption_kind kind, const cha
     }
     if (rows[kind].lasts_ns && length) c->changed = true;
     caption->set_ns = now_ns;
+}
+
+void gn_captions_set_bar(struct gn_captions *c, double share) {
+    const uint32_t percent = share < 0.0 ? 0 : 1 + (share >= 1.0 ? 100 : (uint32_t)(100.0 * share));
+    if (c->bar_percent == percent) return;
+    c->bar_percent = percent;
+    c->stale = c->changed = true;
 }
 
 /* ---- time ---- */
@@ -146,6 +154,33 @@ static int32_t push_text(struct gn_captions *c, enum gn_caption_kind kind, const
     return x;
 }
 
+/* A white rectangle, of squares that are a line high at most. */
+static void push_solid(struct gn_captions *c, enum gn_caption_kind kind, struct gn_caption_quad q) {
+    const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, GN_ATLAS_SOLID);
+    const int32_t right = q.x + q.width;
+    if (g->width_px == 0) return; /* the atlas is full */
+    for (; q.x < right; q.x += g->width_px) {
+        q.width = right - q.x < g->width_px ? right - q.x : g->width_px;
+        q.atlas_x = g->x;
+        q.atlas_y = g->y;
+        q.caption = (uint8_t)kind;
+        push_quad(c, q);
+    }
+}
+
+/* The filled part is a third of a line high, the rest a thin line. */
+static void lay_out_bar(struct gn_captions *c, enum gn_caption_kind kind, int32_t x, int32_t y,
+                        int32_t width) {
+    const int32_t line = (int32_t)c->font->line_px, height = line / 3, thin = line / 12 + 1;
+    const int32_t filled = width * (int32_t)(c->bar_percent - 1) / 100;
+    push_solid(c, kind,
+               (struct gn_caption_quad){.x = x, .y = y, .width = filled, .height = height});
+    push_solid(
+        c, kind,
+        (struct gn_caption_quad){
+            .x = x + filled, .y = y + height - thin, .width = width - filled, .height = thin});
+}
+
 /* The ground under the lines is half a line wider on each side than they are, and a quarter higher.
  */
 static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
@@ -177,7 +212,9 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
         if (lines[i].width_px > widest) widest = lines[i].width_px;
     if (widest == 0) return;
 
-    const int32_t tall = (int32_t)count * line + 2 * above;
+    const bool has_bar = kind == GN_CAPTION_ERROR && c->bar_percent > 0;
+    if (has_bar) widest = opts.width_px;
+    const int32_t tall = (int32_t)count * line + 2 * above + (has_bar ? line * 2 / 3 : 0);
     const int32_t y = row->at_top ? margin : lowest - tall;
     push_quad(c, (struct gn_caption_quad){.x = margin,
                                           .y = y,
@@ -190,6 +227,8 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
         const int32_t end = push_text(c, kind, lines[i].begin, lines[i].end, margin + beside, base);
         if (lines[i].cut) push_text(c, kind, gap, gap + sizeof gap - 1, end, base);
     }
+    if (has_bar)
+        lay_out_bar(c, kind, margin + beside, y + above + (int32_t)count * line + line / 6, widest);
     if (!row->at_top) c->bottom_px += (uint32_t)(tall + above);
 }
 

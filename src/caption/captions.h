@@ -26,6 +26,8 @@ bool gn_captions_open_font(struct gn_captions *captions, struct gn_err *err);
  * time starts again, else nothing changes. */
 void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns);
+/* A bar under the error message, filled to that share, 0 to 1; below 0, as at first: no bar. */
+void gn_captions_set_bar(struct gn_captions *captions, double share);
 /* Opacity of a caption that was set that long ago: 1, fading at the end of a mode's time, then 0.
  * Pure. */
 float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);

@@ -34,13 +34,23 @@ static bool fail_size(struct gn_err *err, const char *path, size_t limit) {
     return gn_fail(err, "%s: larger than the limit of %zu bytes", path, limit);
 }
 
+enum { SLICE = 4 << 20 };
+struct progress {
+    atomic_uint *permille;
+    unsigned whole;
+};
+
 /* The size when the file was opened is only a hint: it may grow, and files of /proc report 0. */
-static bool read_all(int fd, const char *path, size_t hint, size_t limit, struct gn_bytes *out,
-                     struct gn_err *err) {
+static bool read_all(int fd, const char *path, size_t hint, size_t limit,
+                     const struct progress *progress, struct gn_bytes *out, struct gn_err *err) {
     size_t room = hint + 1;
     out->data = malloc(room + 1);
     while (out->data) {
-        ssize_t got = read(fd, out->data + out->size, room - out->size);
+        const size_t left = room - out->size, most = progress && left > SLICE ? SLICE : left;
+        if (progress)
+            atomic_store(progress->permille,
+                         (unsigned)((uint64_t)out->size * progress->whole / room));
+        ssize_t got = read(fd, out->data + out->size, most);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) return fail_errno(err, path, "read");
         if (got == 0) break;
@@ -67,16 +77,21 @@ static bool check_regular(int fd, const char *path, struct stat *info, struct gn
            gn_fail(err, "%s: is %s, not a file", path, kind_name(info->st_mode));
 }
 
-bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
-                     struct gn_err *err) {
+static bool read_regular(int fd, const char *path, size_t limit, const struct progress *progress,
+                         struct gn_bytes *out, struct gn_err *err) {
     struct stat info = {0};
     *out = (struct gn_bytes){0};
     bool ok = check_regular(fd, path, &info, err);
     if (ok && limit && (uintmax_t)info.st_size > limit) ok = fail_size(err, path, limit);
-    ok = ok && read_all(fd, path, (size_t)info.st_size, limit, out, err);
+    ok = ok && read_all(fd, path, (size_t)info.st_size, limit, progress, out, err);
     close_quietly(fd);
     if (!ok) gn_bytes_finish(out);
     return ok;
+}
+
+bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
+                     struct gn_err *err) {
+    return read_regular(fd, path, limit, NULL, out, err);
 }
 
 /* Does not block: neither on a FIFO without a writer nor on a device. */
@@ -86,6 +101,12 @@ static int open_to_read(const char *path) {
 
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err) {
     return gn_file_read_fd(open_to_read(path), path, limit, out, err);
+}
+
+bool gn_file_read_seen(const char *path, size_t limit, atomic_uint *permille, unsigned whole,
+                       struct gn_bytes *out, struct gn_err *err) {
+    const struct progress progress = {permille, whole};
+    return read_regular(open_to_read(path), path, limit, permille ? &progress : NULL, out, err);
 }
 
 /* The descriptor if it is that of a regular file, else closes it. */

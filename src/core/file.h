@@ -3,6 +3,7 @@
 #ifndef GN_CORE_FILE_H
 #define GN_CORE_FILE_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -17,6 +18,10 @@ struct gn_bytes {
 /* Reads a regular file of at most limit bytes (0 = no limit). Refuses directories, devices, FIFOs
  * and sockets (without blocking on one); the error has the path and the reason. */
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err);
+/* The same, and while it reads the share that is read goes into *permille, from 0 to `whole`, for
+ * another thread to see. */
+bool gn_file_read_seen(const char *path, size_t limit, atomic_uint *permille, unsigned whole,
+                       struct gn_bytes *out, struct gn_err *err);
 /* Opens a file that a model names, of its folder or below, so that its first bytes can be looked at
  * before it is read; -1 with the reason if there is none, if it is no regular file, or if the path
  * or a link leads outside; see gn_open_beneath(). */

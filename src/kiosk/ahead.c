@@ -303,6 +303,7 @@ bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
 bool gn_show_start_load(struct gn_show *s, int number, const char *path,
                         const struct gn_settings *settings, struct gn_err *err) {
     struct gn_scene_limits limits;
+    s->scenes.load_begun_ns = gn_loop_now_ns(s->loop);
     return gn_stage_limits(settings, &limits, err) &&
            gn_loader_start(s->scenes.loader, number, path, &limits, err);
 }

@@ -30,6 +30,35 @@ static const char *scene_name(const struct gn_show *s, int scene) {
     return gn_show_path_name(s->scenes.paths[scene]);
 }
 
+/* ---- loading ---- */
+
+static const int64_t PATIENCE_NS = GN_NS_PER_S / 10; /* shorter loads have no bar */
+
+/* The first load, and others that take long. */
+static bool is_loading(const struct gn_show *s, int64_t now_ns) {
+    if (s->reload.first) return true;
+    return s->rules.caption_ns > 0 && gn_loader_number(s->scenes.loader) >= 0 &&
+           now_ns - s->scenes.load_begun_ns > PATIENCE_NS;
+}
+
+static const char *loading_name(const struct gn_show *s) {
+    const int number = gn_loader_number(s->scenes.loader);
+    if (s->reload.options && (s->reload.first || number == GN_SHOW_RELOAD))
+        return gn_show_path_name(s->reload.options->settings->scene.path);
+    return number >= 0 ? scene_name(s, number) : "";
+}
+
+/* -1: no bar. */
+static int progress_percent(const struct gn_show *s, int64_t now_ns) {
+    const double done = gn_loader_progress(s->scenes.loader);
+    if (!is_loading(s, now_ns)) return -1;
+    return done < 0.0 ? 100 : (int)(100.0 * done); /* loaded; the upload remains */
+}
+
+bool gn_show_bar_moves(const struct gn_show *s) {
+    return progress_percent(s, gn_loop_now_ns(s->loop)) != s->text.bar;
+}
+
 void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
     struct gn_show_text *t = &s->text;
     struct gn_frame_opts *f = &s->stage.frame_opts;
@@ -39,12 +68,14 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
     const char *error = s->config.options->config_error;
     if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = t->problem;
     char loading[200];
-    if (!error && s->reload.first) {
-        snprintf(loading, sizeof loading, "loading %s ..",
-                 gn_show_path_name(s->reload.options->settings->scene.path));
+    const bool loads = !error && is_loading(s, now_ns);
+    if (loads) {
+        snprintf(loading, sizeof loading, "loading %.150s ..", loading_name(s));
         error = loading;
     }
+    t->bar = progress_percent(s, now_ns);
     gn_captions_set(t->captions, GN_CAPTION_ERROR, error, now_ns);
+    gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
     if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
         t->view = *view;
         t->since_ns = s->kiosk.caption_begun_ns;
@@ -93,4 +124,9 @@ int64_t gn_show_captions_due_ns(const struct gn_show *s) {
     const int64_t next_ns = gn_captions_next_ns(s->text.captions),
                   page_ns = s->text.page.made ? s->text.page.made_ns + GN_NS_PER_S : INT64_MAX;
     return next_ns < page_ns ? next_ns : page_ns;
+}
+
+int64_t gn_show_bar_due_ns(const struct gn_show *s) {
+    const bool loads = s->text.bar >= 0 || gn_loader_number(s->scenes.loader) >= 0;
+    return loads ? gn_loop_now_ns(s->loop) + PATIENCE_NS : INT64_MAX;
 }

@@ -23,7 +23,8 @@ bool gn_show_wants_frame(const struct gn_show *s) {
                          view.caption_mode != drawn->caption_mode ||
                          view.caption_scene != drawn->caption_scene ||
                          (view.stands && view.time_ns != drawn->time_ns);
-    return moves || differs || gn_show_captions_due_ns(s) <= screen->seen_ns;
+    return moves || differs || gn_show_bar_moves(s) ||
+           gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* Fills a requested screenshot from this frame. */

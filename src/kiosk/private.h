@@ -65,6 +65,7 @@ struct gn_show_scenes {
     int shown;                              /* the number of the stage's scene */
     struct gn_loader *loader;
     struct gn_watch loader_watch;
+    int64_t load_begun_ns;
     struct gn_loaded *staged;   /* loaded, to be shown next, or a reload's; NULL: none */
     struct gn_frame *frame;     /* of the staged scene, while there is a context */
     bool whole;                 /* all of the staged scene is on the GPU */
@@ -87,6 +88,7 @@ struct gn_show_reload {
 struct gn_show_text {
     struct gn_captions *captions;
     struct gn_info_page page;
+    int bar;                   /* percent of a load, as the last frame showed it; -1: none */
     char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
@@ -241,6 +243,9 @@ void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *vi
 const char *gn_show_path_name(const char *path);
 /* When the texts need another frame; 0: at once, INT64_MAX: never. */
 int64_t gn_show_captions_due_ns(const struct gn_show *show);
+/* The bar of a load wants another frame; when to ask again (INT64_MAX: nothing loads). */
+bool gn_show_bar_moves(const struct gn_show *show);
+int64_t gn_show_bar_due_ns(const struct gn_show *show);
 
 /* ---- input.c: buttons and keys --------------------------------------------------------------- */
 

@@ -196,9 +196,14 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     return true;
 }
 
+/* A window is on the screen within a fifth of a second. */
+static const int64_t WINDOW_NS = 60 * GN_NS_PER_S / 1000;
+
 bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     const struct gn_settings *o = s->config.options->settings;
-    const int64_t until_ns = gn_loop_now_ns(s->loop) + GN_NS_PER_S;
+    const char *backend = s->config.place ? s->config.place->backend : o->display.backend;
+    const int64_t until_ns =
+        gn_loop_now_ns(s->loop) + (strcmp(backend, "window") == 0 ? WINDOW_NS : GN_NS_PER_S);
     if (!gn_show_start_load(s, GN_SHOW_RELOAD, o->scene.path, o, err)) return false;
     while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
         gn_loop_step(s->loop, until_ns);

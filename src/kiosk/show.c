@@ -28,6 +28,8 @@ static int64_t due_ns(const struct gn_show *s) {
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
+    const int64_t bar_ns = gn_show_bar_due_ns(s);
+    if (bar_ns < at_ns) at_ns = bar_ns;
     const int64_t turns_ns = gn_viewer_due_ns(s);
     if (turns_ns < at_ns) at_ns = turns_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */

@@ -45,12 +45,30 @@ static bool check_triangles(struct gn_gltf *g) {
     return true;
 }
 
-static bool (*const STEPS[])(struct gn_gltf *) = {
-    gn_gltf_check_support, gn_gltf_buffers,    gn_gltf_accessors, count_textures,
-    gn_gltf_nodes,         gn_gltf_meshes,     gn_gltf_instances, check_triangles,
-    gn_gltf_geometries,    gn_gltf_items,      gn_gltf_materials, gn_gltf_lights,
-    gn_gltf_cameras,       gn_gltf_animations, gn_scene_complete, gn_scene_batch,
-    gn_scene_count_gpu,
+/* With how much of the load is done before each, per mille: what takes long is to read the files,
+ * the geometry, and the pictures of materials. */
+enum { FILE_PERMILLE = 300 };
+static const struct {
+    bool (*run)(struct gn_gltf *);
+    unsigned permille;
+} STEPS[] = {
+    {gn_gltf_check_support, FILE_PERMILLE},
+    {gn_gltf_buffers, 320},
+    {gn_gltf_accessors, 420},
+    {count_textures, 450},
+    {gn_gltf_nodes, 450},
+    {gn_gltf_meshes, 460},
+    {gn_gltf_instances, 470},
+    {check_triangles, 480},
+    {gn_gltf_geometries, 480},
+    {gn_gltf_items, 700},
+    {gn_gltf_materials, 710},
+    {gn_gltf_lights, 930},
+    {gn_gltf_cameras, 930},
+    {gn_gltf_animations, 930},
+    {gn_scene_complete, 950},
+    {gn_scene_batch, 980},
+    {gn_scene_count_gpu, 990},
 };
 
 static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {
@@ -62,8 +80,10 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
     g->hash_key = gn_hash_key_make();
     g->end_ns = gn_clock_thread_cpu_ns() + (int64_t)g->limits.seconds * GN_NS_PER_S;
     bool done = gn_gltf_open(g, data, size);
-    for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++)
-        done = STEPS[i](g) && gn_gltf_check_time(g);
+    for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) {
+        gn_gltf_progress(g, STEPS[i].permille);
+        done = STEPS[i].run(g) && gn_gltf_check_time(g);
+    }
     done = done && !g->failed;
     holder->scene.memory.bytes = holder->arena.used + sizeof *holder;
     for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);
@@ -97,7 +117,8 @@ static char *real_folder(const char *path) {
 
 static bool read_model(const struct gn_gltf *g, struct gn_bytes *bytes) {
     const uint64_t most = g->limits.file_mb << 20;
-    return gn_file_read(g->path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, bytes, g->err);
+    return gn_file_read_seen(g->path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, g->limits.progress,
+                             FILE_PERMILLE, bytes, g->err);
 }
 
 struct gn_scene *gn_scene_load_converted(const char *path, const void *data, size_t size,
@@ -126,6 +147,7 @@ bool gn_scene_uses(const char *path, const struct gn_scene_limits *limits, const
     struct gn_warnings warnings = {0};
     struct gn_gltf g = {.path = path, .warnings = &warnings, .err = &err};
     g.limits = gn_scene_limits_or_default(limits);
+    g.limits.progress = NULL; /* it has been read before */
     g.hash_key = gn_hash_key_make();
     g.end_ns = gn_clock_thread_cpu_ns() + (int64_t)g.limits.seconds * GN_NS_PER_S;
     struct gn_arena none = {0};

@@ -198,6 +198,8 @@ size_t gn_gltf_room(const struct gn_gltf *g);
 /* Fails the load when its limit on seconds is over or it is cancelled. Reads a clock: once for each
  * geometry, picture and clip, and in one of many getters of gltf/json.h. */
 bool gn_gltf_check_time(struct gn_gltf *g);
+/* How much of the load is done, for limits.progress. */
+void gn_gltf_progress(const struct gn_gltf *g, unsigned permille);
 
 /* ---- the steps of load.c, in order ---- */
 

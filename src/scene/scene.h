@@ -265,6 +265,7 @@ struct gn_scene_limits {
     uint64_t ahead_percent;       /* 10: programs of modes that were not shown yet, of the memory
                                      that is in use without them */
     const atomic_bool *cancel;    /* another thread sets it to end the load, which fails; or NULL */
+    atomic_uint *progress;        /* gets how much of the load is done, per mille; or NULL */
     struct gn_scene_floor floor;  /* no limit: what is added to the file */
 };
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */

@@ -22,6 +22,7 @@ struct job {
     int event; /* a duplicate of the loader's; the thread closes it */
     atomic_int state;
     atomic_bool cancelled;
+    atomic_uint permille; /* done */
 };
 enum { RUNS, IS_DONE, IS_LEFT };
 
@@ -101,6 +102,10 @@ int gn_loader_number(const struct gn_loader *loader) {
     return job && !atomic_load(&job->cancelled) ? job->number : -1;
 }
 
+double gn_loader_progress(const struct gn_loader *loader) {
+    return gn_loader_number(loader) < 0 ? -1.0 : atomic_load(&loader->job->permille) / 1000.0;
+}
+
 void gn_loader_cancel(struct gn_loader *loader) {
     if (loader->job) atomic_store(&loader->job->cancelled, true);
 }
@@ -112,6 +117,7 @@ bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
     job->loaded->number = job->number = number;
     job->limits = *limits;
     job->limits.cancel = &job->cancelled;
+    job->limits.progress = &job->permille;
     job->path = path ? strdup(path) : NULL;
     job->event = fcntl(loader->event, F_DUPFD_CLOEXEC, 0);
     if (job->event < 0) {

@@ -20,6 +20,8 @@ int gn_loader_fd(const struct gn_loader *loader);       /* readable when a scene
 bool gn_loader_is_busy(const struct gn_loader *loader); /* a thread runs or is to be taken */
 /* The number of the load that runs and is not cancelled, else -1. */
 int gn_loader_number(const struct gn_loader *loader);
+/* How much of that load is done, 0 to 1; below 0: none runs. */
+double gn_loader_progress(const struct gn_loader *loader);
 /* Starts the thread; not while busy. The path is copied; NULL: the built-in scene. */
 bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
                      const struct gn_scene_limits *limits, struct gn_err *err);

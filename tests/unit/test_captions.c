@@ -295,6 +295,45 @@ static void test_a_font_that_is_none_is_said_once(void **state) {
     assert_non_null(strstr(warnings.text[0], "/nowhere/x.ttf"));
 }
 
+/* Widths of the bar's filled part and of its thin rest, which are below the text. */
+static void measure_bar(int32_t out[2]) {
+    const struct gn_caption_run *run = gn_captions_run(captions, 400, 300, 0);
+    int32_t lowest = 0, tallest = 0;
+    out[0] = out[1] = 0;
+    for (uint32_t i = 0; i < run->quad_count; i++) {
+        const struct gn_caption_quad *q = &run->quads[i];
+        if (!q->ground && q->y + q->height > lowest) lowest = q->y + q->height;
+    }
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t i = 0; i < run->quad_count; i++) {
+            const struct gn_caption_quad *q = &run->quads[i];
+            if (q->ground || q->y + q->height != lowest) continue;
+            if (!pass && q->height > tallest) tallest = q->height;
+            if (pass) out[q->height < tallest] += q->width;
+        }
+}
+
+static void test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page(void **state) {
+    (void)state;
+    int32_t half[2], most[2];
+    gn_captions_set(captions, GN_CAPTION_ERROR, "loading a ..", 0);
+    gn_captions_run(captions, 400, 300, 0);
+    assert_true(gn_captions_next_ns(captions) == INT64_MAX);
+    gn_captions_set_bar(captions, .5);
+    assert_true(gn_captions_next_ns(captions) == 0);
+    measure_bar(half);
+    assert_in_range(half[0], 150, 200);
+    assert_in_range(half[1] - half[0], 0, 1);
+    gn_captions_set_bar(captions, .504); /* the same percent */
+    assert_true(gn_captions_next_ns(captions) == INT64_MAX);
+    gn_captions_set_bar(captions, 1);
+    measure_bar(most);
+    assert_int_equal(most[0], half[0] + half[1]);
+    gn_captions_set_bar(captions, -1);
+    measure_bar(half);
+    assert_true(half[0] + half[1] < most[0]); /* only letters are left */
+}
+
 #define TEST(f) cmocka_unit_test_setup_teardown(f, setup, teardown)
 
 int main(void) {
@@ -308,6 +347,7 @@ int main(void) {
         TEST(test_glyphs_are_those_of_the_font),
         TEST(test_captions_do_not_cover_each_other),
         TEST(test_text_grows_with_the_picture),
+        TEST(test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page),
         TEST(test_no_text_is_no_run),
         TEST(test_unknown_characters_are_boxes),
         TEST(test_frames_with_the_same_text_do_no_work),

@@ -69,6 +69,41 @@ static void presses_while_something_loads_add_up(void **state) {
     assert_int_equal(s.wanted.mode, 2);
 }
 
+static void the_scenes_speed_doubles_and_halves(void **state) {
+    (void)state;
+    struct gn_kiosk s = on(&three, (struct gn_kiosk){0}, GN_KIOSK_FRAME, S);
+    for (int i = 0; i < 2; i++)
+        s = gn_kiosk_step(&three, &s, &(struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = 1});
+    assert_int_equal(gn_kiosk_view(&three, &s, 2 * S).time_ns, 4 * S);
+    s = on(&three, s, GN_KIOSK_FRAME, 2 * S);
+    for (int i = 0; i < 3; i++)
+        s = gn_kiosk_step(&three, &s, &(struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = -1});
+    assert_int_equal(gn_kiosk_view(&three, &s, 4 * S).time_ns, 5 * S);
+    for (int i = 0; i < 100; i++)
+        s = gn_kiosk_step(&three, &s, &(struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = 1});
+    assert_int_equal(s.speed, GN_KIOSK_SPEED_MOST);
+}
+
+static void a_camera_that_is_chosen_has_a_caption(void **state) {
+    (void)state;
+    const struct gn_kiosk s =
+        gn_kiosk_step(&three, &(struct gn_kiosk){.camera = 1},
+                      &(struct gn_kiosk_event){.kind = GN_KIOSK_CAMERA, .time_ns = S, .camera = 4});
+    assert_int_equal(s.camera, 4);
+    assert_int_equal(gn_kiosk_view(&three, &s, S).caption, GN_KIOSK_CAPTION_CAMERA);
+}
+
+static void a_note_replaces_a_caption_for_its_time(void **state) {
+    (void)state;
+    struct gn_kiosk s = act(&three, (struct gn_kiosk){0}, S, GN_ACTION_NEXT);
+    s = gn_kiosk_step(&three, &s,
+                      &(struct gn_kiosk_event){.kind = GN_KIOSK_NOTE,
+                                               .time_ns = 2 * S,
+                                               .caption = GN_KIOSK_CAPTION_NOTE});
+    assert_int_equal(gn_kiosk_view(&three, &s, 3 * S).caption, GN_KIOSK_CAPTION_NOTE);
+    assert_int_equal(gn_kiosk_view(&three, &s, 4 * S).caption, GN_KIOSK_CAPTION_NONE);
+}
+
 static void blank_swallows_the_first_action(void **state) {
     (void)state;
     struct gn_kiosk s = act(&three, (struct gn_kiosk){0}, S, GN_ACTION_BLANK);
@@ -303,6 +338,9 @@ int main(void) {
         cmocka_unit_test(the_old_mode_is_shown_until_the_new_one_is_ready),
         cmocka_unit_test(a_lesson_names_its_first_step),
         cmocka_unit_test(presses_while_something_loads_add_up),
+        cmocka_unit_test(the_scenes_speed_doubles_and_halves),
+        cmocka_unit_test(a_camera_that_is_chosen_has_a_caption),
+        cmocka_unit_test(a_note_replaces_a_caption_for_its_time),
         cmocka_unit_test(blank_swallows_the_first_action),
         cmocka_unit_test(a_pause_stands_and_goes_on_from_there),
         cmocka_unit_test(a_bad_scene_leaves_the_one_that_is_shown),

@@ -50,6 +50,28 @@ static void test_the_button_that_began_a_drag_ends_it(void **state) {
     assert_drag(h.pan, .1, 0);
 }
 
+static void test_letters_files_and_handles_are_summed_up(void **state) {
+    (void)state;
+    struct gn_pointer sum = {0}, more = {0};
+    for (unsigned c = 0; c < 40; c++) gn_pointer_letter(&sum, c % 2 ? 'a' + c / 2 : 0x20ac);
+    assert_int_equal(sum.letter_count, GN_POINTER_LETTERS_MAX);
+    assert_memory_equal(sum.letters, "abcdefghijklmnop", GN_POINTER_LETTERS_MAX);
+    sum.letter_count = 0;
+    gn_pointer_letter(&more, '?');
+    more.file = "a.glb";
+    more.pressed = more.dragged = true;
+    more.press_x = .25f;
+    more.drag_x = .5f;
+    assert_false(gn_pointer_is_zero(&more));
+    gn_pointer_add(&sum, &more);
+    gn_pointer_add(&sum, &(struct gn_pointer){.dragged = true, .drag_x = .75f, .released = true});
+    assert_int_equal(sum.letter_count, 1);
+    assert_string_equal(sum.file, "a.glb");
+    assert_true(sum.pressed && sum.dragged && sum.released);
+    assert_float_equal((double)sum.press_x, .25, 0);
+    assert_float_equal((double)sum.drag_x, .75, 0);
+}
+
 static void test_a_window_without_height_has_no_drags(void **state) {
     (void)state;
     struct gn_drag p = {0};
@@ -82,6 +104,7 @@ int main(void) {
         cmocka_unit_test(test_left_turns_and_the_others_pan),
         cmocka_unit_test(test_a_pointer_without_a_button_does_nothing),
         cmocka_unit_test(test_the_button_that_began_a_drag_ends_it),
+        cmocka_unit_test(test_letters_files_and_handles_are_summed_up),
         cmocka_unit_test(test_a_window_without_height_has_no_drags),
         cmocka_unit_test(test_what_was_done_adds_up),
         cmocka_unit_test(test_home_forgets_what_was_done_before_but_not_after),

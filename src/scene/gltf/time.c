@@ -1,6 +1,6 @@
-/* The limit on seconds, and the flag that cancels a load. The limit counts processor time of the
- * thread that loads, so that a busy machine or a slow disk refuses no scene that it would show
- * otherwise. */
+/* The limit on seconds, the flag that cancels a load, and its progress. The limit counts processor
+ * time of the thread that loads, so that a busy machine or a slow disk refuses no scene that it
+ * would show otherwise. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -13,4 +13,8 @@ bool gn_gltf_check_time(struct gn_gltf *g) {
     if (g->failed || gn_clock_thread_cpu_ns() < g->end_ns) return !g->failed;
     return gn_gltf_fail(g, NULL, "takes longer to load than the limit seconds=%" PRIu64,
                         g->limits.seconds);
+}
+
+void gn_gltf_progress(const struct gn_gltf *g, unsigned permille) {
+    if (g->limits.progress) atomic_store(g->limits.progress, permille);
 }
