@@ -1,9 +1,9 @@
 #include "display/pointer.h"
 
 bool gn_pointer_is_zero(const struct gn_pointer *h) {
-    return !h->quit && !h->home && h->key_count == 0 && h->letter_count == 0 && !h->file &&
-           !h->pressed && !h->dragged && !h->released && h->turn[0] == 0.0f && h->turn[1] == 0.0f &&
-           h->pan[0] == 0.0f && h->pan[1] == 0.0f && h->wheel == 0.0f;
+    return !h->quit && !h->home && h->key_count == 0 && !h->file && !h->pressed && !h->dragged &&
+           !h->released && h->turn[0] == 0.0f && h->turn[1] == 0.0f && h->pan[0] == 0.0f &&
+           h->pan[1] == 0.0f && h->wheel == 0.0f;
 }
 
 void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
@@ -14,9 +14,10 @@ void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
         pointer->pan[k] += more->pan[k];
     }
     pointer->wheel += more->wheel;
-    for (unsigned i = 0; i < more->key_count; i++) gn_pointer_key(pointer, &more->keys[i]);
-    for (unsigned i = 0; i < more->letter_count; i++)
-        gn_pointer_letter(pointer, (unsigned char)more->letters[i]);
+    for (unsigned i = 0; i < more->key_count; i++) {
+        gn_pointer_key(pointer, &more->keys[i]);
+        if (more->letters[i]) gn_pointer_letter(pointer, (unsigned char)more->letters[i]);
+    }
     if (more->file) pointer->file = more->file;
     if (more->pressed) pointer->press_x = more->press_x;
     if (more->dragged) pointer->drag_x = more->drag_x;
@@ -26,12 +27,17 @@ void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
 }
 
 void gn_pointer_key(struct gn_pointer *pointer, const struct gn_key_event *event) {
-    if (pointer->key_count < GN_POINTER_KEYS_MAX) pointer->keys[pointer->key_count++] = *event;
+    if (pointer->key_count == GN_POINTER_KEYS_MAX) return;
+    pointer->letters[pointer->key_count] = 0;
+    pointer->keys[pointer->key_count++] = *event;
 }
 
-void gn_pointer_letter(struct gn_pointer *pointer, unsigned letter) {
-    if (letter > ' ' && letter < 127 && pointer->letter_count < GN_POINTER_LETTERS_MAX)
-        pointer->letters[pointer->letter_count++] = (char)letter;
+void gn_pointer_letter(struct gn_pointer *p, unsigned letter) {
+    static const struct gn_key_event bare = {.key = GN_KEY_NONE, .down = true};
+    if (letter <= ' ' || letter >= 127) return;
+    const unsigned last = p->key_count - 1;
+    if (p->key_count == 0 || !p->keys[last].down || p->letters[last]) gn_pointer_key(p, &bare);
+    if (p->letters[p->key_count - 1] == 0) p->letters[p->key_count - 1] = (char)letter;
 }
 
 void gn_pointer_act(struct gn_pointer *pointer, enum gn_pointer_key action) {

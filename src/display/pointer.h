@@ -14,7 +14,7 @@ enum gn_pointer_key { /* actions of the window's own keys */
                       GN_POINTER_FULL_SCREEN, /* toggles; handled by the window */
 };
 
-enum { GN_POINTER_KEYS_MAX = 64, GN_POINTER_LETTERS_MAX = 16 };
+enum { GN_POINTER_KEYS_MAX = 64 };
 struct gn_pointer {        /* zeroed: no input */
     bool quit;             /* the quit key, or the window was closed */
     bool home;             /* applied before the moves below */
@@ -22,10 +22,9 @@ struct gn_pointer {        /* zeroed: no input */
     float wheel;           /* notches; positive moves closer */
     struct gn_key_event keys[GN_POINTER_KEYS_MAX]; /* keys other than the window's own, in order;
                                                       the excess is dropped */
+    char letters[GN_POINTER_KEYS_MAX]; /* ASCII characters that those presses typed, as the layout
+                                          has them, but the window's own; 0: none */
     unsigned key_count;
-    char letters[GN_POINTER_LETTERS_MAX]; /* ASCII characters typed, but the window's own: as the
-                                             layout has them; the excess is dropped */
-    unsigned letter_count;
     /* the left button, to the right in widths of the window: for a handle that is dragged */
     bool pressed, dragged, released;
     float press_x, drag_x;
@@ -35,7 +34,8 @@ bool gn_pointer_is_zero(const struct gn_pointer *pointer);
 /* Adds `more`, which came after `pointer`. */
 void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more);
 void gn_pointer_key(struct gn_pointer *pointer, const struct gn_key_event *event);
-/* Characters that are not ASCII, and control characters, are ignored. */
+/* The character of the press that came last; one of GN_KEY_NONE is added if that has one already.
+ * Characters that are not ASCII, and control characters, are ignored. */
 void gn_pointer_letter(struct gn_pointer *pointer, unsigned letter);
 void gn_pointer_act(struct gn_pointer *pointer, enum gn_pointer_key action);
 

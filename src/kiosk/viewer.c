@@ -10,6 +10,7 @@
 
 #include "core/clock.h"
 #include "kiosk/private.h"
+#include "options/command.h"
 #include "options/viewer_keys.h"
 
 static const int64_t HOLD_NS = GN_NS_PER_S / 4; /* an arrow that is down longer turns on */
@@ -30,9 +31,10 @@ static size_t add_button(const struct gn_button_config *button, char *out, size_
             used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
         at += length + (int)strspn(at + length, " ");
     }
-    const char *action = gn_action_name(button->on[GN_GESTURE_PRESS].action.kind);
+    const int command = gn_ctl_find(gn_action_name(button->on[GN_GESTURE_PRESS].action.kind));
     if (used > 0 && used < size)
-        used += (size_t)snprintf(out + used, size - used, ": %s\n", action);
+        used += (size_t)snprintf(out + used, size - used, ": %s\n",
+                                 command >= 0 ? gn_ctl_rows[command].what : "another action");
     return used < size ? used : size - 1;
 }
 
@@ -214,43 +216,28 @@ static bool is_bound(const struct gn_show *s, unsigned key) {
     return own && gn_buttons_have_key(own, key);
 }
 
-static unsigned key_of_letter(char letter) {
-    const char name[2] = {letter, 0};
-    return gn_key_find(name);
-}
-
 void gn_viewer_take_keys(struct gn_show *s, struct gn_pointer *pointer) {
     struct gn_show_viewer *v = &s->viewer;
-    bool woke = false; /* by one of these keys, whose letter is among the letters, too */
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
     unsigned kept = 0;
+    if (pointer->key_count > 0 || v->held) s->kiosk.used_ns = now_ns;
     for (unsigned i = 0; i < pointer->key_count; i++) {
-        const struct gn_key_event *event = &pointer->keys[i];
+        const struct gn_key_event event = pointer->keys[i];
         int place = 0;
-        const struct gn_viewer_key *row = gn_viewer_key_find(event->key, &place);
-        const bool bound = is_bound(s, event->key);
-        if (event->down && v->helps && only_wakes(s)) {
-            woke = true;
-        } else if (!row || bound) {
-            pointer->keys[kept++] = *event;
-        } else if (event->down && only_wakes(s)) {
-            woke = true;
-        } else if (row->command == GN_VIEWER_ORBIT) {
-            take_arrow(s, pointer, place, event->down);
-        } else if (event->down) {
+        const struct gn_viewer_key *row = gn_viewer_key_find(event.key, &place);
+        if (!row) row = gn_viewer_letter_find(pointer->letters[i]);
+        if (is_bound(s, event.key)) row = NULL;
+        if (event.down && (row || v->helps) && only_wakes(s)) continue;
+        if (!row && event.key)
+            pointer->keys[kept++] = event;
+        else if (row && row->command == GN_VIEWER_ORBIT)
+            take_arrow(s, pointer, place, event.down);
+        else if (row && event.down)
             run_command(s, row->command, place);
-        }
     }
     pointer->key_count = kept;
-    for (unsigned i = 0; i < pointer->letter_count && !woke; i++) {
-        const struct gn_viewer_key *row = gn_viewer_letter_find(pointer->letters[i]);
-        if (row && !is_bound(s, key_of_letter(pointer->letters[i])) && !only_wakes(s))
-            run_command(s, row->command, 0);
-    }
-    if (pointer->key_count + pointer->letter_count > 0 || v->held)
-        s->kiosk.used_ns = gn_loop_now_ns(s->loop);
 
     /* arrows that are held down */
-    const int64_t now_ns = gn_loop_now_ns(s->loop);
     if (!v->held || now_ns <= v->turned_ns) return;
     turn(pointer, v->held, TURN_PER_S * (float)((double)(now_ns - v->turned_ns) * 1e-9));
     v->turned_ns = now_ns;

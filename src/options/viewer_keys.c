@@ -17,7 +17,7 @@ const struct gn_viewer_key gn_viewer_keys[] = {
     {"Home", "reset the view to that of the camera", GN_VIEWER_NONE, NULL, {0}},
     {"1 to 9", "camera of that number", GN_VIEWER_CAMERA, NULL, {2, 3, 4, 5, 6, 7, 8, 9, 10}},
     {"x, tab",
-     "this mode left of a line, the next one right of it; the mouse drags the line",
+     "split screen: this mode left of a line to drag, the next one right",
      GN_VIEWER_SPLIT,
      "xX",
      {GN_KEY_TAB}},

@@ -167,6 +167,7 @@ static void test_numbers_choose_cameras(void **state) {
     struct window_shown s;
     char *scene = absolute("assets/sundial.glb");
     show_quietly(&s, scene, "");
+    assert_shows(&s, scene, NULL, "viewer-camera-1");
     press(&s, XK_2);
     assert_shows(&s, scene, (const char *const[]){"--camera", "1", NULL}, "viewer-camera-2");
     press(&s, XK_1);
@@ -203,6 +204,7 @@ static void test_arrows_that_the_configuration_gives_to_a_button_are_its(void **
     show_quietly(&s, window_scene,
                  "[mode \"A\"]\nshadow = pcf\n[mode \"B\"]\nshadow = none\n"
                  "[button \"x\"]\nkeys = right\npress = next\n");
+    assert_shows(&s, window_scene, (const char *const[]){"--shadow", "pcf", NULL}, "viewer-mode");
     press(&s, XK_Right);
     assert_shows(&s, window_scene, (const char *const[]){"--shadow", "none", NULL},
                  "viewer-button");
@@ -213,6 +215,7 @@ static void test_e_switches_the_environment(void **state) {
     (void)state;
     struct window_shown s;
     show_quietly(&s, window_scene, "[render]\ntone = none\n");
+    assert_shows(&s, window_scene, NULL, "viewer-environment");
     press(&s, XK_e);
     assert_shows(&s, window_scene, (const char *const[]){"--environment", "studio", NULL},
                  "viewer-studio");

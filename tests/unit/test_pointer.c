@@ -53,10 +53,11 @@ static void test_the_button_that_began_a_drag_ends_it(void **state) {
 static void test_letters_files_and_handles_are_summed_up(void **state) {
     (void)state;
     struct gn_pointer sum = {0}, more = {0};
-    for (unsigned c = 0; c < 40; c++) gn_pointer_letter(&sum, c % 2 ? 'a' + c / 2 : 0x20ac);
-    assert_int_equal(sum.letter_count, GN_POINTER_LETTERS_MAX);
-    assert_memory_equal(sum.letters, "abcdefghijklmnop", GN_POINTER_LETTERS_MAX);
-    sum.letter_count = 0;
+    const struct gn_key_event n = {.key = GN_KEY_N, .down = true}, up = {.key = GN_KEY_N};
+    gn_pointer_key(&more, &n);
+    gn_pointer_letter(&more, 'n');
+    gn_pointer_key(&more, &up);
+    gn_pointer_letter(&more, 0x20ac); /* not ASCII */
     gn_pointer_letter(&more, '?');
     more.file = "a.glb";
     more.pressed = more.dragged = true;
@@ -65,7 +66,13 @@ static void test_letters_files_and_handles_are_summed_up(void **state) {
     assert_false(gn_pointer_is_zero(&more));
     gn_pointer_add(&sum, &more);
     gn_pointer_add(&sum, &(struct gn_pointer){.dragged = true, .drag_x = .75f, .released = true});
-    assert_int_equal(sum.letter_count, 1);
+    assert_int_equal(sum.key_count, 3);
+    assert_true(sum.keys[0].key == GN_KEY_N && sum.letters[0] == 'n');
+    assert_true(sum.keys[1].key == GN_KEY_N && !sum.keys[1].down && !sum.letters[1]);
+    assert_true(sum.keys[2].key == GN_KEY_NONE && sum.letters[2] == '?');
+    for (int i = 0; i < 100; i++) gn_pointer_letter(&sum, 'a');
+    assert_int_equal(sum.key_count, GN_POINTER_KEYS_MAX);
+    assert_int_equal(sum.letters[GN_POINTER_KEYS_MAX - 1], 'a');
     assert_string_equal(sum.file, "a.glb");
     assert_true(sum.pressed && sum.dragged && sum.released);
     assert_float_equal((double)sum.press_x, .25, 0);

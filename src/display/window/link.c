@@ -28,6 +28,12 @@ static int end_quietly(void *display) {
     return 0;
 }
 
+/* A request about another program's window, which may be gone: that of a dropped file's source. */
+static int ignore_error(void *display, void *event) {
+    (void)display, (void)event;
+    return 0;
+}
+
 static void end_later(void *display, void *link) {
     (void)display;
     ((struct gn_window_link *)link)->gone = true;
@@ -51,10 +57,12 @@ void gn_window_link_open(struct gn_window_link *link, void *glfw_library) {
     link->fd = number && link->x_pending ? number(link->display) : -1;
     /* without a handler Xlib prints a message and exits when the server has ended */
     void (*set_exit)(void *display, void (*handler)(void *, void *), void *data);
-    void *(*set)(int (*handler)(void *));
+    void *(*set)(int (*handler)(void *)), *(*set_error)(int (*handler)(void *, void *));
     *(void **)&set_exit = function_of(X11, "XSetIOErrorExitHandler");
     *(void **)&set = function_of(X11, "XSetIOErrorHandler");
-    if (!set_exit || !set) return;
+    *(void **)&set_error = function_of(X11, "XSetErrorHandler");
+    if (!set_exit || !set || !set_error) return;
+    set_error(ignore_error); /* Xlib's own ends the program, too */
     only = link;
     set_exit(link->display, end_later, link);
     set(end_quietly);
