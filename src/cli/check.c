@@ -86,6 +86,27 @@ static void check_lights(struct check *c, const struct gn_settings *s) {
     }
 }
 
+/* Each is in one of the scenes at least. */
+static bool check_clip(const struct check *c, const char *button, const char *clip,
+                       struct gn_err *err) {
+    struct gn_err why = {0};
+    for (int i = 0; i < c->scene_count; i++)
+        if (gn_scene_find_clip(c->scenes[i], clip, &why) >= 0) return true;
+    return gn_fail(err, "button \"%s\": play %s: %s", button, clip, why.text);
+}
+
+static bool check_clips(const struct check *c, const struct gn_buttons *buttons,
+                        struct gn_err *err) {
+    for (int i = 0; buttons && i < buttons->count; i++)
+        for (int g = 0; g < GN_GESTURE_COUNT; g++) {
+            const struct gn_binding *on = &buttons->items[i].on[g];
+            if (on->bound && on->action.kind == GN_ACTION_PLAY &&
+                !check_clip(c, buttons->items[i].opts.name, on->action.name, err))
+                return false;
+        }
+    return true;
+}
+
 /* ---- what else the settings name ------------------------------------------------------------ */
 
 /* Cards are named by path, or by their place on the bus; a card that is away may come back. */
@@ -214,6 +235,7 @@ bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings
          check_names(again.settings, err) && check_looks(&c, again.settings, err);
     for (int i = 0; ok && i < again.mode_count; i++)
         ok = check_names(&again.all[1 + i], err) && check_looks(&c, &again.all[1 + i], err);
+    ok = ok && check_clips(&c, options->buttons, err);
     if (ok) check_lights(&c, again.settings);
     if (ok) print_check(&c, options);
     for (int i = 0; i < c.scene_count; i++) gn_scene_destroy(c.scenes[i]);

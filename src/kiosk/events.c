@@ -32,15 +32,38 @@ void gn_show_note(struct gn_show *s, const char *format, ...) {
     s->changed = true;
 }
 
+/* Of play: the clip in the scene that is shown; -1: none of that name. */
+static int find_clip(const struct gn_show *s, const struct gn_action *action) {
+    struct gn_err err = {0};
+    return action->kind == GN_ACTION_PLAY && s->stage.scene
+               ? gn_scene_find_clip(s->stage.scene, action->name, &err)
+               : -1;
+}
+
+bool gn_show_check_action(const struct gn_show *s, const struct gn_action *action,
+                          struct gn_err *err) {
+    if (action->kind == GN_ACTION_PLAY && s->stage.scene)
+        return gn_scene_find_clip(s->stage.scene, action->name, err) >= 0;
+    if (action->kind != GN_ACTION_MODE || gn_show_find_mode(&s->modes, action->name) >= 0)
+        return true;
+    char names[400] = "";
+    for (int i = 0, used = 0; i < s->modes.count && used < (int)sizeof names; i++)
+        used += snprintf(names + used, sizeof names - (size_t)used, "%s \"%s\"", i ? "," : "",
+                         s->modes.names[i]);
+    return gn_fail_usage(err, "no mode \"%.60s\"; expected%s", action->name, names);
+}
+
 void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time_ns) {
-    const struct gn_kiosk_event event = {.kind = GN_KIOSK_ACTION,
-                                         .time_ns = time_ns,
-                                         .action = action->kind,
-                                         .mode = gn_show_find_mode(&s->modes, action->name)};
-    if (action->kind == GN_ACTION_MODE && event.mode < 0) {
-        char text[100];
-        snprintf(text, sizeof text, "there is no mode \"%.60s\"", action->name);
-        gn_show_report_problem(s, text);
-    }
+    const int clip = find_clip(s, action);
+    const struct gn_kiosk_event event = {
+        .kind = GN_KIOSK_ACTION,
+        .time_ns = time_ns,
+        .action = action->kind,
+        .pressed = action->pressed,
+        .mode = gn_show_find_mode(&s->modes, action->name),
+        .clip = clip,
+        .clip_ns = clip < 0 ? 0 : s->stage.scene->animation.clips[clip].duration_ns};
+    struct gn_err err = {0};
+    if (!gn_show_check_action(s, action, &err)) gn_show_report_problem(s, err.text);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
 }

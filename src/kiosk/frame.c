@@ -14,15 +14,15 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     const bool moves = s->counts.most_frames < UINT64_MAX ||
-                       (!view.stands && (s->stage.pose.animated ||
+                       (!view.stands && (view.clip >= 0 || s->stage.pose.animated ||
                                          s->stage.settings->scene.turntable_deg_s != 0.0));
     const struct gn_kiosk_view *drawn = &s->drawn;
-    const bool differs = view.mode != drawn->mode || view.scene != drawn->scene ||
-                         view.camera != drawn->camera || view.info != drawn->info ||
-                         view.old > 0.0f || drawn->old > 0.0f || view.caption != drawn->caption ||
-                         view.caption_mode != drawn->caption_mode ||
-                         view.caption_scene != drawn->caption_scene ||
-                         (view.stands && view.time_ns != drawn->time_ns);
+    const bool differs =
+        view.mode != drawn->mode || view.scene != drawn->scene || view.camera != drawn->camera ||
+        view.clip != drawn->clip || view.info != drawn->info || view.old > 0.0f ||
+        drawn->old > 0.0f || view.caption != drawn->caption ||
+        view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
+        (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
     return moves || differs || gn_show_bar_moves(s) ||
            gn_show_captions_due_ns(s) <= screen->seen_ns;
 }

@@ -30,8 +30,9 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
     for (unsigned i = 0; i < pointer->key_count; i++)
         gn_input_key(s->buttons.input, &pointer->keys[i]);
     while (gn_input_next(s->buttons.input, &event)) {
-        const struct gn_action action = gn_buttons_action(&s->buttons.map, &event);
+        struct gn_action action = gn_buttons_action(&s->buttons.map, &event);
         if (action.kind == GN_ACTION_NONE) continue;
+        action.pressed = true;
         const struct gn_kiosk before = s->kiosk, *now = &s->kiosk;
         gn_show_act(s, &action, event.time_ns);
 
@@ -40,7 +41,7 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
             gn_latency_drop(&s->buttons.latency);
         else if (before.wanted.mode != now->wanted.mode ||
                  before.wanted.scene != now->wanted.scene || before.camera != now->camera ||
-                 before.info != now->info)
+                 before.info != now->info || before.play.clip_plus_1 != now->play.clip_plus_1)
             gn_latency_edge(&s->buttons.latency, event.time_ns);
     }
     const bool prints =

@@ -26,6 +26,18 @@ static int64_t scene_time_ns(const struct gn_kiosk *s, int64_t ns) {
     return s->speed >= 0 ? ns * (1 << s->speed) : ns / (1 << -s->speed);
 }
 
+/* ns of real time pass: for the clip that plays once, then for the scene. */
+static void pass_time(struct gn_kiosk *s, int64_t ns) {
+    ns = scene_time_ns(s, ns);
+    if (s->play.clip_plus_1 > 0) {
+        s->play.time_ns += ns;
+        if (s->play.time_ns < s->play.length_ns) return;
+        ns = s->play.time_ns - s->play.length_ns;
+        s->play = (struct gn_kiosk_play){0};
+    }
+    s->scene_ns += ns;
+}
+
 /* ---- what is wanted ---- */
 
 /* The next mode that has not failed; if all have, the same one. */
@@ -96,6 +108,15 @@ static void act_next_camera(const struct gn_kiosk_rules *rules, struct gn_kiosk 
     set_caption(s, GN_KIOSK_CAPTION_CAMERA, e->time_ns);
 }
 
+/* A further press begins anew. */
+static void act_play(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                     const struct gn_kiosk_event *e) {
+    (void)rules;
+    if (e->clip < 0) return;
+    if (s->paused) toggle_pause(s, e->time_ns);
+    s->play = (struct gn_kiosk_play){.clip_plus_1 = e->clip + 1, .length_ns = e->clip_ns};
+}
+
 static void act_pause(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                       const struct gn_kiosk_event *e) {
     (void)rules;
@@ -123,6 +144,7 @@ static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
 #undef X
     };
     if (e->action == GN_ACTION_NONE) return;
+    if (s->play.clip_plus_1 > 0 && rules->plays_alone && e->pressed && !s->blanked) return;
     s->used_ns = e->time_ns;
     if (s->blanked)
         s->blanked = false;
@@ -144,7 +166,7 @@ static void check_timeouts(const struct gn_kiosk_rules *rules, struct gn_kiosk *
     if (s->caption && now_ns - s->caption_begun_ns >= caption_duration_ns(rules, s->caption))
         s->caption = GN_KIOSK_CAPTION_NONE;
     if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || s->blanked ||
-        now_ns - s->used_ns < rules->idle_after_ns)
+        s->play.clip_plus_1 > 0 || now_ns - s->used_ns < rules->idle_after_ns)
         return;
     s->used_ns = now_ns;
     if (s->paused) toggle_pause(s, now_ns);
@@ -167,6 +189,7 @@ static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     if (e->scene != before || (enters && rules->own_camera >> e->mode & 1)) s->camera = 0;
     s->fade_begun_ns = rules->fade_ns > 0 ? e->time_ns : 0;
     s->shown = s->wanted;
+    s->play = (struct gn_kiosk_play){0};
 }
 
 static void give_up_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
@@ -197,8 +220,8 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
     case GN_KIOSK_FRAME:
         if (next.seen_ns == 0 && rules->names_first && !next.caption)
             set_caption(&next, GN_KIOSK_CAPTION_MODE, event->time_ns);
-        if (!next.paused && next.seen_ns != 0)
-            next.scene_ns += scene_time_ns(&next, event->time_ns - next.seen_ns);
+        if (!next.paused && next.seen_ns != 0) pass_time(&next, event->time_ns - next.seen_ns);
+        if (state->play.clip_plus_1 > 0) next.used_ns = event->time_ns;
         next.seen_ns = event->time_ns;
         break;
     case GN_KIOSK_TICK: check_timeouts(rules, &next, event->time_ns); break;
@@ -222,11 +245,15 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
 
 struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,
                                    int64_t seen_ns) {
+    struct gn_kiosk then = *state;
+    if (!state->paused && state->seen_ns != 0) pass_time(&then, seen_ns - state->seen_ns);
     struct gn_kiosk_view view = {
         .mode = state->shown.mode,
         .scene = gn_kiosk_scene(rules, &state->shown),
         .camera = state->camera,
-        .time_ns = state->scene_ns,
+        .time_ns = then.scene_ns,
+        .clip = then.play.clip_plus_1 - 1,
+        .clip_ns = then.play.time_ns,
         .stands = state->paused,
         .dark = state->blanked,
         .info = state->info,
@@ -237,8 +264,6 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         const double share = (double)(seen_ns - state->fade_begun_ns) / (double)rules->fade_ns;
         view.old = share <= 0.0 ? 1.0f : share >= 1.0 ? 0.0f : (float)(1.0 - share);
     }
-    if (!state->paused && state->seen_ns != 0)
-        view.time_ns += scene_time_ns(state, seen_ns - state->seen_ns);
     if (seen_ns - state->caption_begun_ns < caption_duration_ns(rules, state->caption))
         view.caption = state->caption;
     return view;
@@ -252,7 +277,8 @@ int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_ki
     if (state->caption)
         at_ns =
             earlier_ns(at_ns, state->caption_begun_ns + caption_duration_ns(rules, state->caption));
-    if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !state->blanked)
+    if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !state->blanked &&
+        state->play.clip_plus_1 == 0)
         at_ns = earlier_ns(at_ns, state->used_ns + rules->idle_after_ns);
     return at_ns;
 }
@@ -262,6 +288,7 @@ void gn_kiosk_print(const struct gn_kiosk *s, FILE *to) {
                                            " pause", " note", " problem"};
     fprintf(to, "mode %d scene %d", s->shown.mode, s->shown.scene);
     if (gn_kiosk_waits(s)) fprintf(to, " wants mode %d scene %d", s->wanted.mode, s->wanted.scene);
+    if (s->play.clip_plus_1 > 0) fprintf(to, " plays clip %d", s->play.clip_plus_1 - 1);
     fprintf(to, " camera +%u at %.3f s%s%s%s%s%s%s\n", s->camera, (double)s->scene_ns * 1e-9,
             s->paused ? " paused" : "", s->blanked ? " blanked" : "", s->info ? " info" : "",
             s->fade_begun_ns ? " fades" : "", s->caption ? " caption" : "", captions[s->caption]);

@@ -24,6 +24,7 @@ struct gn_kiosk_rules {                    /* zero means the default written bes
     int64_t fade_ns;       /* how long, from the old picture to the new; 0: at once */
     int64_t caption_ns;    /* how long; 0: no captions */
     bool names_first;      /* the first picture has a caption, too */
+    bool plays_alone;      /* buttons do nothing while a clip plays once */
 };
 
 enum gn_kiosk_caption {
@@ -50,7 +51,11 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     int64_t fade_begun_ns;    /* monotonic; 0: no fade */
     int64_t caption_begun_ns; /* monotonic */
     enum gn_kiosk_caption caption;
-    int64_t used_ns; /* the last action, or what the idle timeout did */
+    int64_t used_ns; /* the last action, the end of a clip, or what the idle timeout did */
+    struct gn_kiosk_play {
+        int clip_plus_1; /* that plays once; 0: none. The scene's time stands meanwhile */
+        int64_t time_ns, length_ns;
+    } play;
 };
 
 enum gn_kiosk_event_kind {
@@ -69,8 +74,11 @@ struct gn_kiosk_event {
     enum gn_kiosk_event_kind kind;
     int64_t time_ns;
     enum gn_action_kind action;
-    int mode;  /* also of GN_ACTION_MODE; -1: no such mode */
-    int scene; /* a number as gn_kiosk_scene() returns it */
+    bool pressed;    /* an action of a button or key */
+    int mode;        /* also of GN_ACTION_MODE; -1: no such mode */
+    int clip;        /* of GN_ACTION_PLAY; -1: no such clip */
+    int64_t clip_ns; /* its length */
+    int scene;       /* a number as gn_kiosk_scene() returns it */
     enum gn_kiosk_caption caption;
     uint32_t camera; /* as in gn_kiosk */
     int by;
@@ -87,6 +95,8 @@ struct gn_kiosk_view {
     int mode, scene;
     uint32_t camera;
     int64_t time_ns; /* of the scene */
+    int clip;        /* that plays once; -1: none */
+    int64_t clip_ns; /* its time */
     bool stands;     /* paused */
     bool dark, info;
     float old; /* weight of the kept picture in a fade, 1 to 0 */

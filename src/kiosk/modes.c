@@ -60,6 +60,7 @@ void gn_show_take_rules(struct gn_show *s) {
     const struct gn_settings *o = s->stage.settings;
     s->rules.idle = (enum gn_idle)o->kiosk.idle;
     s->rules.idle_after_ns = o->kiosk.idle_after_ns;
+    s->rules.plays_alone = o->kiosk.plays_alone;
     s->rules.fade_ns = o->kiosk.fade_ns;
     s->rules.caption_ns = o->kiosk.captions ? o->kiosk.caption_ns : 0;
     s->rules.names_first = s->config.options->is_lesson;
@@ -118,6 +119,12 @@ void gn_show_enter(struct gn_show *s) {
 void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_frame_opts *f = &s->stage.frame_opts;
+    const bool plays =
+        view->clip >= 0 && (uint32_t)view->clip < s->stage.scene->animation.clip_count;
+    const int clips = plays ? view->clip : look->clips;
+    if (clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, clips);
+    s->stage.plays_once = plays;
+    s->stage.once_ns = view->clip_ns;
     const uint32_t camera =
         ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;
     if ((uint32_t)f->view.camera != camera) f->view.orbit = (struct gn_orbit){0};

@@ -276,6 +276,9 @@ bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 /* ---- events.c: actions as events of the machine; problems ------------------------------------ */
 
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
+/* Whether there is the mode, or in the scene that is shown the clip, that it names. */
+bool gn_show_check_action(const struct gn_show *show, const struct gn_action *action,
+                          struct gn_err *err);
 /* A problem that does not end the kiosk: printed once, and shown by a caption. */
 void gn_show_report_problem(struct gn_show *show, const char *text);
 /* A caption of the viewer, for 2 s. */

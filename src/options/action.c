@@ -34,10 +34,10 @@ bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
         if (!takes_name && name[0])
             return gn_fail_usage(err, "%s: \"%s\": %s takes no argument", label, text,
                                  rows[k].name);
-        *out = (struct gn_action){(enum gn_action_kind)k, takes_name ? name : NULL};
+        *out = (struct gn_action){.kind = (enum gn_action_kind)k, .name = takes_name ? name : NULL};
         return true;
     }
-    char list[160];
+    char list[200];
     gn_action_list(list, sizeof list);
     return gn_fail_usage(err, "%s: unknown action \"%s\"; expected %s", label, text, list);
 }

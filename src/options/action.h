@@ -18,6 +18,7 @@
     X(MODE, mode, "mode", "NAME", "go to that mode", "name")                                       \
     X(NEXT_SCENE, next_scene, "next-scene", "", "show the next scene", NULL)                       \
     X(NEXT_CAMERA, next_camera, "next-camera", "", "use the scene's next camera", NULL)            \
+    X(PLAY, play, "play", "CLIP", "play that clip of the animation once, then go on as before", "clip") \
     X(PAUSE, pause, "pause", "", "stop the animation, or resume it", NULL)                         \
     X(BLANK, blank, "blank", "", "turn the screen off, or on again", NULL)                         \
     X(INFO, info, "info", "", "show or hide the information page", NULL)
@@ -32,7 +33,8 @@ enum gn_action_kind {
 };
 struct gn_action { /* zeroed: none */
     enum gn_action_kind kind;
-    const char *name; /* of the mode, else NULL; points into the parsed text */
+    const char *name; /* of the mode or clip, else NULL; points into the parsed text */
+    bool pressed;     /* by a button or key, not by a command */
 };
 
 enum gn_idle { /* what a kiosk does after idle_after seconds without an event */
@@ -43,7 +45,7 @@ enum gn_idle { /* what a kiosk does after idle_after seconds without an event */
 
 const char *gn_action_name(enum gn_action_kind kind); /* "next-scene" */
 void gn_action_list(char *out, size_t size);          /* "none, next, prev, mode NAME, .." */
-/* "next", "mode Soft": the name of a mode begins behind the first space and points into text, which
+/* "next", "mode Soft": the name begins behind the first space and points into text, which
  * must live as long as the action. Else a usage error "label: .." that lists the actions. */
 bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
                      struct gn_err *err);

@@ -152,6 +152,8 @@ GN_OPTION(.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices =
           .help = "after the idle timeout go to the first mode, or to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))
 GN_OPTION(.name = "idle-after", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds",
           .fallback = "60", .help = "idle timeout", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle_after_ns))
+GN_OPTION(.name = "while-playing", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = playings, .value = "WHAT", .fallback = "act",
+          .help = "buttons while play CLIP plays: act as ever (play again begins anew), or ignore presses", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.plays_alone))
 GN_OPTION(.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "duration of the fade between modes", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.fade_ns))
 /* what a kiosk lets itself be told, and says */

@@ -117,6 +117,12 @@ expect 0 'scene: sundial.glb' next-scene
 expect 0 'camera: 1' next-camera
 expect 0 'camera: 2' next-camera
 expect 0 'camera: 0' next-camera
+expect 0 'plays: gull' play gull
+expect 0 'plays: hoop' play 0
+expect 0 'plays: hoop' next-camera
+expect 2 "no animation named 'nosuch'; available: 0 'hoop', 1 'gull'" play nosuch
+expect 0 'camera: 2' next-camera
+expect 0 'camera: 0' next-camera
 expect 0 'info: yes' info
 expect 0 'info: no' info
 ctl status --json > out || complain 'status --json'

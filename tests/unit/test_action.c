@@ -29,8 +29,11 @@ static void actions_are_read(void **state) {
     assert_true(gn_action_parse("mode  Soft shadows", "x", &action, &err));
     assert_int_equal(action.kind, GN_ACTION_MODE);
     assert_string_equal(action.name, "Soft shadows");
+    assert_true(gn_action_parse("play Wave hello", "x", &action, &err));
+    assert_int_equal(action.kind, GN_ACTION_PLAY);
+    assert_string_equal(action.name, "Wave hello");
     for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT; k++) {
-        if (k == GN_ACTION_MODE) continue;
+        if (k == GN_ACTION_MODE || k == GN_ACTION_PLAY) continue;
         assert_true(gn_action_parse(gn_action_name((enum gn_action_kind)k), "x", &action, &err));
         assert_int_equal(action.kind, k);
     }
@@ -38,7 +41,8 @@ static void actions_are_read(void **state) {
 
 static void what_is_no_action_is_refused(void **state) {
     (void)state;
-    static const char *const bad[] = {"", "nex", "nextt", "mode", "mode ", "next 1", "Next"};
+    static const char *const bad[] = {"",      "nex",  "nextt",  "mode",
+                                      "mode ", "play", "next 1", "Next"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct gn_action action = {0};
         struct gn_err err = {0};

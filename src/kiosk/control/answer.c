@@ -77,17 +77,9 @@ void gn_show_close_control(struct gn_show *s) {
 
 /* While the screen is off a button only switches it on; a command also has its effect. */
 static json_t *answer_action(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
-    const struct gn_action action = {gn_ctl_action(r->command), r->words[0]};
+    const struct gn_action action = {.kind = gn_ctl_action(r->command), .name = r->words[0]};
     const int64_t now_ns = gn_loop_now_ns(s->loop);
-    if (action.kind == GN_ACTION_MODE && gn_show_find_mode(&s->modes, action.name) < 0) {
-        char names[400] = "";
-        size_t used = 0;
-        for (int i = 0; i < s->modes.count && used < sizeof names; i++)
-            used += (size_t)snprintf(names + used, sizeof names - used, "%s \"%s\"", i ? "," : "",
-                                     s->modes.names[i]);
-        gn_fail_usage(err, "no mode \"%.60s\"; expected%s", action.name, names);
-        return NULL;
-    }
+    if (!gn_show_check_action(s, &action, err)) return NULL;
     const bool was_dark = s->kiosk.blanked;
     gn_show_act(s, &action, now_ns);
     if (was_dark && action.kind != GN_ACTION_BLANK) gn_show_act(s, &action, now_ns);
