@@ -25,7 +25,7 @@ struct gn_glb {
     struct attributes *geometries;
     size_t geometry_count;
     json_t *accessors, *views, *images, *samplers, *textures, *materials, *meshes, *cameras,
-        *lights, *nodes, *animations;
+        *lights, *nodes, *animations, *extensions;
     json_t *roots, *scene_extras;
     char *copyright;
 };
@@ -78,6 +78,12 @@ static void set_json(json_t *object, const char *key, const char *text) {
 static int append_item(json_t *array, json_t *value) {
     json_array_append_new(array, value);
     return (int)json_array_size(array);
+}
+
+static void use_extension(struct gn_glb *glb, const char *name) {
+    for (size_t i = 0; i < json_array_size(glb->extensions); i++)
+        if (!strcmp(json_string_value(json_array_get(glb->extensions, i)), name)) return;
+    append_item(glb->extensions, json_string(name));
 }
 
 /* ---- the binary chunk ---- */
@@ -186,15 +192,43 @@ int gn_glb_texture(struct gn_glb *glb, const char *name, const struct gn_image *
                                                 sampler - 1, "source", source - 1));
 }
 
+static void set_texture(json_t *object, const char *key, int texture) {
+    if (texture) set_member(object, key, json_pack("{s:i}", "index", texture - 1));
+}
+
 static json_t *surface(const struct gn_glb_material *m) {
     float rgba[4] = {m->rgba[0], m->rgba[1], m->rgba[2], m->rgba[3] != 0 ? m->rgba[3] : 1};
     json_t *object = json_object();
     set_member(object, "baseColorFactor", numbers(rgba, 4));
     set_member(object, "metallicFactor", number(m->metal));
     set_member(object, "roughnessFactor", number(m->rough));
-    if (m->texture)
-        set_member(object, "baseColorTexture", json_pack("{s:i}", "index", m->texture - 1));
+    set_texture(object, "baseColorTexture", m->texture);
+    set_texture(object, "metallicRoughnessTexture", m->rough_texture);
     return object;
+}
+
+/* Adds material extension `name` with its one or two numbers, where the first is not 0. */
+static void set_extension(struct gn_glb *glb, json_t *material, const char *name,
+                          const char *const keys[2], const float values[2]) {
+    if (values[0] == 0) return;
+    json_t *extensions = json_object_get(material, "extensions"), *object = json_object();
+    if (!extensions) set_member(material, "extensions", extensions = json_object());
+    for (int i = 0; i < 2; i++)
+        if (keys[i] && values[i] != 0) set_member(object, keys[i], number(values[i]));
+    set_member(extensions, name, object);
+    use_extension(glb, name);
+}
+
+static void set_extensions(struct gn_glb *glb, json_t *object, const struct gn_glb_material *m) {
+    set_extension(glb, object, "KHR_materials_clearcoat",
+                  (const char *const[2]){"clearcoatFactor", "clearcoatRoughnessFactor"},
+                  (float[2]){m->coat, m->coat_rough});
+    set_extension(glb, object, "KHR_materials_transmission",
+                  (const char *const[2]){"transmissionFactor"}, (float[2]){m->transmission});
+    set_extension(glb, object, "KHR_materials_ior", (const char *const[2]){"ior"},
+                  (float[2]){m->ior});
+    set_extension(glb, object, "KHR_materials_emissive_strength",
+                  (const char *const[2]){"emissiveStrength"}, (float[2]){m->glow});
 }
 
 int gn_glb_material(struct gn_glb *glb, const struct gn_glb_material *material) {
@@ -203,6 +237,10 @@ int gn_glb_material(struct gn_glb *glb, const struct gn_glb_material *material) 
     set_member(object, "pbrMetallicRoughness", surface(material));
     if (any_nonzero(material->emissive, 3))
         set_member(object, "emissiveFactor", numbers(material->emissive, 3));
+    set_texture(object, "emissiveTexture", material->emissive_texture);
+    set_texture(object, "normalTexture", material->normal_texture);
+    set_texture(object, "occlusionTexture", material->occlusion_texture);
+    set_extensions(glb, object, material);
     if (material->alpha == GN_GLB_MASK) set_text(object, "alphaMode", "MASK");
     if (material->alpha == GN_GLB_BLEND) set_text(object, "alphaMode", "BLEND");
     if (material->double_sided) set_member(object, "doubleSided", json_true());
@@ -255,6 +293,7 @@ int gn_glb_camera(struct gn_glb *glb, const struct gn_glb_camera *camera) {
 int gn_glb_light(struct gn_glb *glb, const struct gn_glb_light *light) {
     static const char *const types[] = {"directional", "point", "spot"};
     json_t *object = json_object();
+    use_extension(glb, "KHR_lights_punctual");
     set_text(object, "name", light->name);
     set_text(object, "type", types[light->kind]);
     if (any_nonzero(light->rgb, 3)) set_member(object, "color", numbers(light->rgb, 3));
@@ -344,7 +383,8 @@ struct gn_glb *gn_glb_create(const char *copyright) {
     if (!glb) abort();
     json_t **arrays[] = {&glb->accessors, &glb->views,     &glb->images,     &glb->samplers,
                          &glb->textures,  &glb->materials, &glb->meshes,     &glb->cameras,
-                         &glb->lights,    &glb->nodes,     &glb->animations, &glb->roots};
+                         &glb->lights,    &glb->nodes,     &glb->animations, &glb->roots,
+                         &glb->extensions};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) *arrays[i] = json_array();
     glb->copyright = strdup(copyright);
     return glb;
@@ -352,10 +392,10 @@ struct gn_glb *gn_glb_create(const char *copyright) {
 
 void gn_glb_destroy(struct gn_glb *glb) {
     if (!glb) return;
-    json_t *arrays[] = {glb->accessors,   glb->views,     glb->images,     glb->samplers,
-                        glb->textures,    glb->materials, glb->meshes,     glb->cameras,
-                        glb->lights,      glb->nodes,     glb->animations, glb->roots,
-                        glb->scene_extras};
+    json_t *arrays[] = {glb->accessors,    glb->views,     glb->images,     glb->samplers,
+                        glb->textures,     glb->materials, glb->meshes,     glb->cameras,
+                        glb->lights,       glb->nodes,     glb->animations, glb->roots,
+                        glb->scene_extras, glb->extensions};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) json_decref(arrays[i]);
     free(glb->geometries);
     free(glb->copyright);
@@ -374,11 +414,10 @@ static json_t *document(struct gn_glb *glb) {
     set_member(root, "asset",
                json_pack("{s:s,s:s,s:s}", "version", "2.0", "generator", "gnomon assets",
                          "copyright", glb->copyright));
-    if (json_array_size(glb->lights)) {
-        set_member(root, "extensionsUsed", json_pack("[s]", "KHR_lights_punctual"));
+    set_filled(root, "extensionsUsed", glb->extensions);
+    if (json_array_size(glb->lights))
         set_member(root, "extensions",
                    json_pack("{s:{s:O}}", "KHR_lights_punctual", "lights", glb->lights));
-    }
     set_member(root, "scene", json_integer(0));
     set_member(root, "scenes", json_pack("[o]", scene));
     set_filled(root, "nodes", glb->nodes);
@@ -424,51 +463,4 @@ bool gn_glb_write(struct gn_glb *glb, const char *path) {
     if (file && fclose(file)) ok = false;
     if (!ok) fprintf(stderr, "%s: cannot write the scene: %s\n", path, strerror(errno));
     return ok;
-}
-
-/* ---- rotations ---- */
-
-static void normalise(float v[3]) {
-    float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int i = 0; i < 3; i++) v[i] /= length;
-}
-
-static void cross(const float a[3], const float b[3], float out[3]) {
-    for (int i = 0; i < 3; i++)
-        out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
-/* Quaternion of the rotation matrix with columns x, y, z; the largest component is computed first,
- * for precision. */
-static void from_axes(const float x[3], const float y[3], const float z[3], float q[4]) {
-    float square[4] = {1 + x[0] - y[1] - z[2], 1 - x[0] + y[1] - z[2], 1 - x[0] - y[1] + z[2],
-                       1 + x[0] + y[1] + z[2]};
-    float terms[4][4] = {
-        {square[0], x[1] + y[0], x[2] + z[0], y[2] - z[1]},
-        {x[1] + y[0], square[1], y[2] + z[1], z[0] - x[2]},
-        {x[2] + z[0], y[2] + z[1], square[2], x[1] - y[0]},
-        {y[2] - z[1], z[0] - x[2], x[1] - y[0], square[3]},
-    };
-    int big = 0;
-    for (int i = 1; i < 4; i++)
-        if (square[i] > square[big]) big = i;
-    for (int i = 0; i < 4; i++) q[i] = terms[big][i] / (2 * sqrtf(square[big]));
-}
-
-void gn_glb_look(const float eye[3], const float target[3], float turn[4]) {
-    float x[3], y[3], z[3] = {eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]};
-    float up[3] = {0, 1, 0};
-    normalise(z);
-    if (fabsf(z[1]) > 0.9999f) up[1] = 0, up[2] = -1;
-    cross(up, z, x);
-    normalise(x);
-    cross(z, x, y);
-    from_axes(x, y, z, turn);
-}
-
-void gn_glb_turn_y(float degrees, float turn[4]) {
-    double half = degrees * M_PI / 360;
-    turn[0] = turn[2] = 0;
-    turn[1] = (float)sin(half);
-    turn[3] = (float)cos(half);
 }

@@ -22,12 +22,19 @@ enum gn_glb_interpolation { GN_GLB_LINEAR, GN_GLB_STEP, GN_GLB_CUBICSPLINE };
 
 struct gn_glb_material {
     const char *name;
-    float rgba[4];           /* linear base colour; alpha 0 means 1 */
-    float metal, rough;      /* 0..1 */
-    float emissive[3];       /* linear */
-    int texture;             /* base colour */
+    float rgba[4];      /* linear base colour; alpha 0 means 1 */
+    float metal, rough; /* 0..1 */
+    float emissive[3];  /* linear */
+    int texture;        /* base colour */
+    int rough_texture;  /* G: roughness, B: metalness */
+    int emissive_texture, normal_texture, occlusion_texture;
     enum gn_glb_alpha alpha; /* MASK cuts at .5 */
     bool double_sided;
+    /* material extensions, left out where 0 */
+    float coat, coat_rough; /* KHR_materials_clearcoat */
+    float transmission;     /* KHR_materials_transmission */
+    float ior;              /* KHR_materials_ior */
+    float glow;             /* KHR_materials_emissive_strength */
 };
 
 struct gn_glb_node {

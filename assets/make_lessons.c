@@ -2,6 +2,7 @@
  * light 0, the light that is measured. What a lesson says about its scene is in
  * src/options/lesson_rows.h. */
 #include "glb.h"
+#include "lamp.h"
 #include "outline.h"
 #include "shapes.h"
 
@@ -60,48 +61,20 @@ static void add_ball(struct lesson *l, const float at[3], float radius, const fl
     end(l, "ball", rgb);
 }
 
-/* What stands at `at` and shines at `aim`; radius: of the emitter, as gnomon_radius. */
-struct lamp {
-    enum gn_glb_light_kind kind;
-    float at[3], aim[3];
-    float radius, intensity, cone_deg;
-    float rgb[3];
-};
-
-static void add_lamp(struct lesson *l, const struct lamp *lamp) {
-    char extras[64];
-    snprintf(extras, sizeof extras, "{\"gnomon_radius\":%g}", (double)lamp->radius);
-    struct gn_glb_light light = {.name = "light",
-                                 .kind = lamp->kind,
-                                 .rgb = {lamp->rgb[0], lamp->rgb[1], lamp->rgb[2]},
-                                 .intensity = lamp->intensity,
-                                 .extras = lamp->radius > 0 ? extras : NULL};
-    if (lamp->kind == GN_GLB_SPOT) {
-        light.outer = lamp->cone_deg * RADIANS;
-        light.inner = .9f * light.outer;
-    }
-    struct gn_glb_node node = {.name = "light", .light = gn_glb_light(l->glb, &light)};
-    memcpy(node.move, lamp->at, sizeof node.move);
-    gn_glb_look(lamp->at, lamp->aim, node.turn);
-    gn_glb_node(l->glb, &node);
-}
-
 static void add_sun(struct lesson *l, float elevation_deg, float azimuth_deg, float radius) {
     const float e = elevation_deg * RADIANS, a = azimuth_deg * RADIANS;
-    add_lamp(l,
-             &(struct lamp){.kind = GN_GLB_DIRECTIONAL,
+    gn_lamp_add(l->glb, &(struct gn_lamp){
+                            .kind = GN_GLB_DIRECTIONAL,
                             .at = {20 * cosf(e) * cosf(a), 20 * sinf(e), -20 * cosf(e) * sinf(a)},
                             .radius = radius,
                             .intensity = 3});
 }
 
 static void add_camera(struct lesson *l, const float eye[3], const float aim[3], float yfov_deg) {
-    const struct gn_glb_camera lens = {
-        .name = "camera", .yfov = yfov_deg * RADIANS, .znear = .1f, .zfar = 200};
-    struct gn_glb_node node = {.name = "camera", .camera = gn_glb_camera(l->glb, &lens)};
-    memcpy(node.move, eye, sizeof node.move);
-    gn_glb_look(eye, aim, node.turn);
-    gn_glb_node(l->glb, &node);
+    struct gn_view view = {.yfov_deg = yfov_deg};
+    memcpy(view.eye, eye, sizeof view.eye);
+    memcpy(view.aim, aim, sizeof view.aim);
+    gn_view_add(l->glb, &view);
 }
 
 #define AT(...) ((const float[3]){__VA_ARGS__})
@@ -193,12 +166,12 @@ static void make_plates(struct lesson *l) {
     add_ground(l, 14);
     add_block(l, "upper", AT(-1.2f, 3, -2.6f), 20, AT(2.6f, .06f, 2.2f), blue);
     add_block(l, "lower", AT(0, .8f, -1.2f), 0, AT(3.4f, .06f, 1.5f), red);
-    add_lamp(l, &(struct lamp){.kind = GN_GLB_SPOT,
-                               .at = {-1.5f, 7, -7},
-                               .aim = {0, 0, 0},
-                               .radius = .6f,
-                               .intensity = 320,
-                               .cone_deg = 30});
+    gn_lamp_add(l->glb, &(struct gn_lamp){.kind = GN_GLB_SPOT,
+                                          .at = {-1.5f, 7, -7},
+                                          .aim = {0, 0, 0},
+                                          .radius = .6f,
+                                          .intensity = 320,
+                                          .cone_deg = 30});
     add_camera(l, AT(.6f, 4.4f, 6.6f), AT(.1f, .3f, .1f), 38);
 }
 
@@ -219,11 +192,11 @@ static void make_thin(struct lesson *l) {
 /* 150 m from their lamp, where half-floats of metres are an eighth of one apart. */
 static void make_far(struct lesson *l) {
     add_thin(l);
-    add_lamp(l, &(struct lamp){.kind = GN_GLB_SPOT,
-                               .at = {35, 100, -106},
-                               .aim = {0, 0, 0},
-                               .intensity = 3 * 150 * 150,
-                               .cone_deg = 2.4f});
+    gn_lamp_add(l->glb, &(struct gn_lamp){.kind = GN_GLB_SPOT,
+                                          .at = {35, 100, -106},
+                                          .aim = {0, 0, 0},
+                                          .intensity = 3 * 150 * 150,
+                                          .cone_deg = 2.4f});
 }
 
 /* Three balls of different heights that look alike without their shadows. */
@@ -295,7 +268,7 @@ static void make_unseen(struct lesson *l) {
 
 /* One post and three lamps out of the picture. */
 static void make_lights(struct lesson *l) {
-    static const struct lamp lamps[] = {
+    static const struct gn_lamp lamps[] = {
         {.kind = GN_GLB_SPOT,
          .at = {-4, 5, -2.5f},
          .intensity = 90,
@@ -314,7 +287,7 @@ static void make_lights(struct lesson *l) {
     };
     add_ground(l, 14);
     add_block(l, "post", AT(0, 0, 0), 30, AT(.3f, 1.5f, .3f), grey);
-    for (size_t i = 0; i < sizeof lamps / sizeof *lamps; i++) add_lamp(l, &lamps[i]);
+    for (size_t i = 0; i < sizeof lamps / sizeof *lamps; i++) gn_lamp_add(l->glb, &lamps[i]);
     add_camera(l, AT(0, 3.6f, 5.6f), AT(0, .4f, .2f), 40);
 }
 

@@ -34,7 +34,7 @@ void *gn_image_png(const struct gn_image *image, size_t *size) {
 
 /* ---- noise ---- */
 
-static float hash(int x, int y, unsigned seed) {
+float gn_paint_hash(int x, int y, unsigned seed) {
     uint32_t h = (uint32_t)x * 0x8da6b343u + (uint32_t)y * 0xd8163841u + seed * 0xcb1ab31fu;
     h = (h ^ (h >> 15)) * 0x2c1b3c6du;
     h = (h ^ (h >> 12)) * 0x297a2d39u;
@@ -47,26 +47,24 @@ static float mix(float a, float b, float t) { return a + (b - a) * t; }
 
 static float clamp01(float v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
 
-/* 0 at or below `low`, 1 at or above `high`. */
-static float ramp(float low, float high, float v) {
+float gn_paint_ramp(float low, float high, float v) {
     return fade(clamp01((v - low) / (high - low)));
 }
 
-/* Value noise of period 1 in both directions, with `cells` cells per period. */
-static float noise(float u, float v, int cells, unsigned seed) {
+float gn_paint_noise(float u, float v, int cells, unsigned seed) {
     float x = u * (float)cells, y = v * (float)cells;
     int ix = (int)floorf(x), iy = (int)floorf(y);
     float fx = fade(x - (float)ix), fy = fade(y - (float)iy);
     int x0 = ((ix % cells) + cells) % cells, y0 = ((iy % cells) + cells) % cells;
     int x1 = (x0 + 1) % cells, y1 = (y0 + 1) % cells;
-    return mix(mix(hash(x0, y0, seed), hash(x1, y0, seed), fx),
-               mix(hash(x0, y1, seed), hash(x1, y1, seed), fx), fy);
+    return mix(mix(gn_paint_hash(x0, y0, seed), gn_paint_hash(x1, y0, seed), fx),
+               mix(gn_paint_hash(x0, y1, seed), gn_paint_hash(x1, y1, seed), fx), fy);
 }
 
-static float fractal(float u, float v, int cells, int octaves, unsigned seed) {
+float gn_paint_fractal(float u, float v, int cells, int octaves, unsigned seed) {
     float sum = 0, weight = 0, w = 1;
     for (int i = 0; i < octaves; i++, w *= 0.6f) {
-        sum += w * noise(u, v, cells << i, seed + (unsigned)i);
+        sum += w * gn_paint_noise(u, v, cells << i, seed + (unsigned)i);
         weight += w;
     }
     return sum / weight;
@@ -89,12 +87,49 @@ struct recipe {
     unsigned seed;
 };
 
+void gn_paint_fill(struct gn_image *image, int width, int height, int channels, gn_paint_fn *paint,
+                   const void *what) {
+    gn_image_init(image, width, height, channels);
+    for (int i = 0; i < width * height; i++) {
+        float texel[4] = {1, 1, 1, 1};
+        paint(((float)(i % width) + 0.5f) / (float)width,
+              ((float)(i / width) + 0.5f) / (float)height, what, texel);
+        for (int c = 0; c < channels; c++)
+            image->pixels[channels * i + c] = (unsigned char)lroundf(clamp01(texel[c]) * 255);
+    }
+}
+
+struct relief {
+    gn_paint_fn *paint;
+    const void *what;
+    float step, depth;
+};
+
+static void normal_at(float u, float v, const void *what, float out[4]) {
+    const struct relief *r = what;
+    float h[4][4] = {{0}}, n[3] = {0, 0, 1};
+    r->paint(u - r->step, v, r->what, h[0]);
+    r->paint(u + r->step, v, r->what, h[1]);
+    r->paint(u, v - r->step, r->what, h[2]);
+    r->paint(u, v + r->step, r->what, h[3]);
+    n[0] = r->depth * (h[0][0] - h[1][0]) / (2 * r->step);
+    n[1] = r->depth * (h[3][0] - h[2][0]) / (2 * r->step); /* v goes down, the bitangent up */
+    float length = sqrtf(n[0] * n[0] + n[1] * n[1] + 1);
+    for (int c = 0; c < 3; c++) out[c] = 0.5f + 0.5f * n[c] / length;
+}
+
+void gn_paint_relief(struct gn_image *image, int size_px, float depth, gn_paint_fn *height,
+                     const void *what) {
+    const struct relief relief = {height, what, 0.5f / (float)size_px, depth};
+    gn_paint_fill(image, size_px, size_px, 3, normal_at, &relief);
+}
+
 /* ---- stone, wood, leaves ---- */
 
 static float grain_at(float u, float v, const void *what) {
     const struct recipe *r = what;
-    float cloud = fractal(u, v, 4, 4, r->seed);
-    float speck = noise(u, v, 128, r->seed + 9);
+    float cloud = gn_paint_fractal(u, v, 4, 4, r->seed);
+    float speck = gn_paint_noise(u, v, 128, r->seed + 9);
     return 1 - r->contrast * (0.65f * cloud + 0.35f * speck);
 }
 
@@ -109,11 +144,11 @@ enum { COURSES = 4 };
 static float joint_distance(float u, float v, unsigned seed, int *stone, int *course) {
     float y = v * COURSES;
     *course = (int)floorf(y) % COURSES;
-    float shift = 0.25f * hash(*course, 77, seed);
-    float x = u * COURSES + shift + 0.08f * (noise(u, v, 16, seed + 3) - 0.5f);
+    float shift = 0.25f * gn_paint_hash(*course, 77, seed);
+    float x = u * COURSES + shift + 0.08f * (gn_paint_noise(u, v, 16, seed + 3) - 0.5f);
     float start = floorf(x);
     *stone = (int)start % COURSES;
-    float fx = x - start, fy = y - floorf(y) + 0.05f * (noise(u, v, 16, seed + 5) - 0.5f);
+    float fx = x - start, fy = y - floorf(y) + 0.05f * (gn_paint_noise(u, v, 16, seed + 5) - 0.5f);
     return fminf(fminf(fx, 1 - fx), fminf(fy, 1 - fy));
 }
 
@@ -121,9 +156,10 @@ static float paving_at(float u, float v, const void *what) {
     const struct recipe *r = what;
     int stone, course;
     float edge = joint_distance(u, v, r->seed, &stone, &course);
-    float tone =
-        0.80f + 0.2f * hash(stone, course, r->seed + 1) - 0.16f * fractal(u, v, 8, 4, r->seed + 2);
-    return mix(0.42f, tone, ramp(0.012f, 0.05f, edge)) - 0.06f * noise(u, v, 128, r->seed + 8);
+    float tone = 0.80f + 0.2f * gn_paint_hash(stone, course, r->seed + 1) -
+                 0.16f * gn_paint_fractal(u, v, 8, 4, r->seed + 2);
+    return mix(0.42f, tone, gn_paint_ramp(0.012f, 0.05f, edge)) -
+           0.06f * gn_paint_noise(u, v, 128, r->seed + 8);
 }
 
 void gn_paint_paving(struct gn_image *image, int size_px, unsigned seed) {
@@ -132,9 +168,10 @@ void gn_paint_paving(struct gn_image *image, int size_px, unsigned seed) {
 
 static float wood_at(float u, float v, const void *what) {
     const struct recipe *r = what;
-    float bend = 0.06f * noise(u, v, 4, r->seed);
-    float fibre = noise(u + bend, v * 0.125f, 64, r->seed + 1);
-    float ring = 0.5f + 0.5f * sinf(6.2831853f * (6 * u + 2 * noise(u, v, 4, r->seed + 2)));
+    float bend = 0.06f * gn_paint_noise(u, v, 4, r->seed);
+    float fibre = gn_paint_noise(u + bend, v * 0.125f, 64, r->seed + 1);
+    float ring =
+        0.5f + 0.5f * sinf(6.2831853f * (6 * u + 2 * gn_paint_noise(u, v, 4, r->seed + 2)));
     return 0.98f - 0.3f * fibre - 0.16f * ring;
 }
 
@@ -144,7 +181,8 @@ void gn_paint_wood(struct gn_image *image, int size_px, unsigned seed) {
 
 static float hedge_at(float u, float v, const void *what) {
     const struct recipe *r = what;
-    float leaf = noise(u, v, 64, r->seed), clump = fractal(u, v, 8, 3, r->seed + 4);
+    float leaf = gn_paint_noise(u, v, 64, r->seed),
+          clump = gn_paint_fractal(u, v, 8, 3, r->seed + 4);
     return 0.25f + 0.55f * leaf * leaf + 0.45f * clump * leaf;
 }
 
@@ -169,9 +207,10 @@ void gn_paint_lattice(struct gn_image *image, int size_px, int meshes, unsigned 
         float da = fabsf(a - floorf(a) - 0.5f), db = fabsf(b - floorf(b) - 0.5f);
         bool over = ((int)floorf(a) + (int)floorf(b)) % 2 ? da > 0.36f
                                                           : db <= 0.36f; /* which lath is on top */
-        float along = over ? a : b, tone = 0.8f + 0.15f * noise(along, 0.5f * (u + v), 16, seed);
+        float along = over ? a : b,
+              tone = 0.8f + 0.15f * gn_paint_noise(along, 0.5f * (u + v), 16, seed);
         float edge = fminf(fabsf(da - 0.36f), fabsf(db - 0.36f));
-        tone *= 0.75f + 0.25f * ramp(0, 0.06f, edge);
+        tone *= 0.75f + 0.25f * gn_paint_ramp(0, 0.06f, edge);
         set_pixel(image, i % size_px, i / size_px, (float[3]){tone, tone, tone},
                   da > 0.36f || db > 0.36f);
     }
@@ -222,17 +261,17 @@ void gn_paint_branch(struct gn_image *image, int size_px, unsigned seed) {
     draw_twig(image, 0.5f, 0, 0.5f, 0.9f, 0.014f);
     for (int i = 0; i < 10; i++) {
         float y = 0.1f + 0.078f * (float)i, side = i % 2 ? 1 : -1, spread = 0.42f * (1 - 0.5f * y);
-        float x1 = 0.5f + side * spread * (0.75f + 0.25f * hash(i, 1, seed)),
-              y1 = y + 0.12f + 0.06f * hash(i, 2, seed);
+        float x1 = 0.5f + side * spread * (0.75f + 0.25f * gn_paint_hash(i, 1, seed)),
+              y1 = y + 0.12f + 0.06f * gn_paint_hash(i, 2, seed);
         draw_twig(image, 0.5f, y, x1, y1, 0.008f);
         for (int k = 0; k < 4; k++) {
             float t = 0.3f + 0.23f * (float)k,
-                  turn = (hash(i, 10 + k, seed) - 0.5f) * 0.8f + (k % 2 ? 0.75f : -0.6f);
+                  turn = (gn_paint_hash(i, 10 + k, seed) - 0.5f) * 0.8f + (k % 2 ? 0.75f : -0.6f);
             float base = atan2f(y1 - y, x1 - 0.5f);
             draw_leaf(image, &(struct leaf){mix(0.5f, x1, t), mix(y, y1, t),
                                             base + (k == 3 ? 0 : turn * side),
-                                            0.13f + 0.05f * hash(i, 20 + k, seed),
-                                            0.62f + 0.38f * hash(i, 30 + k, seed)});
+                                            0.13f + 0.05f * gn_paint_hash(i, 20 + k, seed),
+                                            0.62f + 0.38f * gn_paint_hash(i, 30 + k, seed)});
         }
     }
     draw_leaf(image, &(struct leaf){0.5f, 0.84f, 1.57f, 0.16f, 0.95f});
@@ -269,8 +308,8 @@ static float leads(float x, float y, int piece[2]) {
 static void glass(const int piece[2], unsigned seed, float rgb[3]) {
     static const float tints[][3] = {
         {1, .86f, .58f}, {1, .78f, .42f}, {1, .93f, .76f}, {1, .66f, .30f}, {.62f, .86f, .84f}};
-    float pick = hash(piece[0], piece[1], seed),
-          tone = 0.8f + 0.2f * hash(piece[1], piece[0], seed);
+    float pick = gn_paint_hash(piece[0], piece[1], seed),
+          tone = 0.8f + 0.2f * gn_paint_hash(piece[1], piece[0], seed);
     const float *tint = tints[(int)(pick * 4.99f)];
     for (int c = 0; c < 3; c++) rgb[c] = tint[c] * tone;
 }
@@ -282,9 +321,9 @@ void gn_paint_window(struct gn_image *image, int width_px, unsigned seed) {
               v = ((float)(i / width_px) + 0.5f) / (float)width_px;
         float x = u - 0.5f, y = 0.75f - v, rgb[3];
         int piece[2];
-        float lead = ramp(0.003f, 0.010f, leads(x, y, piece));
-        float light = ramp(0, 2.5f * SOFT, opening(x, y)) *
-                      ramp(BAR - SOFT, BAR + SOFT, bars(x, y)) * (0.25f + 0.75f * lead);
+        float lead = gn_paint_ramp(0.003f, 0.010f, leads(x, y, piece));
+        float light = gn_paint_ramp(0, 2.5f * SOFT, opening(x, y)) *
+                      gn_paint_ramp(BAR - SOFT, BAR + SOFT, bars(x, y)) * (0.25f + 0.75f * lead);
         glass(piece, seed, rgb);
         for (int c = 0; c < 3; c++) image->pixels[3 * i + c] = level(light * rgb[c]);
     }

@@ -14,6 +14,24 @@ void gn_image_finish(struct gn_image *image);
 /* The picture as a PNG file in memory; the caller frees it. */
 void *gn_image_png(const struct gn_image *image, size_t *size);
 
+/* Noise for pictures. A hash of two numbers, 0..1. */
+float gn_paint_hash(int x, int y, unsigned seed);
+/* Value noise of period 1 in both directions, with `cells` cells per period. */
+float gn_paint_noise(float u, float v, int cells, unsigned seed);
+/* Octaves of it. */
+float gn_paint_fractal(float u, float v, int cells, int octaves, unsigned seed);
+/* 0 at or below `low`, 1 at or above `high`. */
+float gn_paint_ramp(float low, float high, float v);
+
+/* A texel at (u, v), v = 0 at the top: 0..1, as many as the picture has channels. */
+typedef void gn_paint_fn(float u, float v, const void *what, float out[4]);
+void gn_paint_fill(struct gn_image *image, int width, int height, int channels, gn_paint_fn *paint,
+                   const void *what);
+/* Normal map of a relief: `height` gives texel[0], which is `depth` deep in widths of the picture.
+ */
+void gn_paint_relief(struct gn_image *image, int size_px, float depth, gn_paint_fn *height,
+                     const void *what);
+
 /* Grey, near white, to be multiplied by a base colour. `contrast` 0..1: 1 - value of the darkest
  * grain. */
 void gn_paint_grain(struct gn_image *image, int size_px, float contrast, unsigned seed);
