@@ -17,7 +17,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DELETE_ON_ERROR:
 .SUFFIXES:
 CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
-.PHONY: all no-import tests sanitized run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons readme options-page deps \
+.PHONY: all no-import tests sanitized run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
 help:
@@ -45,6 +45,7 @@ help:
 	    'make contact-sheet' \
 	    '                the modes of the default scene, gone through by keys, as one picture' \
 	    'make lessons    faults of shadows beside their cures, into build/lessons/index.html' \
+	    'make book       eight scenes, each by its configuration in assets/book, into build/book.png' \
 	    'make deps       install the packages that building, running and testing need (apt);' \
 	    '                with CROSS= those that building for it needs' \
 	    'make lint       clang-tidy; make syntax: clang for its warnings; make format: clang-format, in place' \
@@ -52,11 +53,11 @@ help:
 	    'make tests, man, compile_commands.json, clean' \
 	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1'
 clean:
-	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb assets/lessons assets/benchmark/*.glb assets/benchmark/*.pfm
+	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb assets/lessons assets/book/*.glb assets/benchmark/*.glb assets/benchmark/*.pfm
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
-	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] src/import/draco.cc board/*/*.c)
+	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] assets/book/*.[ch] src/import/draco.cc board/*/*.c)
 uninstall:
 	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1" \
 	    "$(INTO)/share/man/man1/gnomon-import.1" "$(INTO)/share/man/man5/gnomon.ini.5"
@@ -77,8 +78,9 @@ DEPS_benchmark-scenes := build run test
 DEPS_gallery := build run test
 DEPS_contact-sheet := build run test
 DEPS_lessons := build run
+DEPS_book := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth benchmark benchmark-scenes gallery contact-sheet lessons readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -99,7 +101,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests sanitized syntax $(CHECKS) truth benchmark benchmark-scenes gallery contact-sheet readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests sanitized syntax $(CHECKS) truth benchmark benchmark-scenes gallery contact-sheet book readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
@@ -173,6 +175,7 @@ OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
 SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
            $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
 LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plates thin far position form unseen lights)
+BOOK    := watch room carousel foliage product architecture studio window
 SELFTEST := $(foreach s,box ball fence lattice tilt stack lamp,$(addprefix $(O)/selftest/$s,.glb .truth))
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
            $(SELFTEST) $(LESSONS) $(O)/studio.env
@@ -182,7 +185,7 @@ EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 
 all: $(BIN) $(IMPORT) $(SCENES) man
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth \
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(O)/host/make_book \
        $(if $(ASSIMP),$(B)/tests/hostile_assimp.so)
 man: $(O)/gnomon.1 $(O)/gnomon.ini.5
 
@@ -269,6 +272,7 @@ $(O)/host/man: board/host/man.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B
 $(O)/host/man: HOST_LIBS = $(shell pkg-config --cflags libdrm)
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
 $(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)
+$(O)/host/make_book: $(wildcard assets/book/*.c assets/book/*.h)
 $(O)/host/make_studio: $(wildcard src/environment/*.c) $(addprefix src/,image/hdr_read.c core/arena.c core/err.c core/hash.c core/text.c) \
     $(wildcard src/environment/*.h)
 $(O)/host/embed $(O)/host/man $(HOST_ASSETS):
@@ -283,6 +287,8 @@ $(O)/studio.env: $(O)/host/make_studio
 	$(Q)$< $@.tmp && mv $@.tmp $@
 assets/lessons/%.glb: $(O)/host/make_lessons
 	@mkdir -p $(@D)
+	$(Q)$< $* $@.tmp && mv $@.tmp $@
+assets/book/%.glb: $(O)/host/make_book
 	$(Q)$< $* $@.tmp && mv $@.tmp $@
 $(O)/selftest/%.glb $(O)/selftest/%.truth: $(O)/host/make_selftest
 	@mkdir -p $(@D)
@@ -391,6 +397,9 @@ gallery: $(B)/tests/tool_gallery $(BIN)
 	$< assets/gallery
 lessons: $(BIN)
 	$< lesson all -o $(O)/lessons
+# each scene by its own configuration; the sheet has half their size
+book: $(B)/tests/tool_sheet $(BIN) $(BOOK:%=assets/book/%.glb)
+	GNOMON=$(BIN) BUILD=$(B) tests/image/book.sh $(O)/book.png $(BOOK)
 contact-sheet: $(B)/tests/tool_sheet $(BIN)
 	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
@@ -409,7 +418,7 @@ benchmark: benchmark-scenes $(BIN)
 # differs from origin's branch (a fresh clone has no such: accept runs lint).
 ifeq ($(if $(findstring clang,$(CC)),$(CONFIG)),debug)
 TIDY    := src/main.c $(SRC) $(IMPORT_C)
-SYNTAX  := $(TIDY) $(filter-out $(if $(ASSIMP),,tests/import/%),$(wildcard tests/*/*.c board/host/*.c assets/*.c))
+SYNTAX  := $(TIDY) $(filter-out $(if $(ASSIMP),,tests/import/%),$(wildcard tests/*/*.c board/host/*.c assets/*.c assets/book/*.c))
 stamps   = $(patsubst %.c,$(B)/obj/%.$(1),$(2))
 syntax: $(call stamps,syntax,$(SYNTAX))
 lint: $(call stamps,tidy,$(TIDY))

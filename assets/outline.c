@@ -36,7 +36,7 @@ static bool is_ear(const float (*p)[2], const int *ring, int count, int i) {
     return true;
 }
 
-enum { OUTLINE_MAX = 256 };
+enum { OUTLINE_MAX = 256, BEVEL_MAX = 6 };
 
 /* Triangulates the polygon p[0..count) by ear clipping; returns the number of indices written. */
 static int cut_ears(const float (*p)[2], int count, int *corners) {
@@ -102,9 +102,32 @@ static void rim_normal(const float edge[2], const float neighbour[2], float out[
     out[2] = 0;
 }
 
+/* One row of the wall: its height, how far it lies within the outline, and how far its normals are
+ * turned from the side to the top. */
+struct rim_row {
+    float z, inset, turn;
+};
+
+/* Point of a row at a corner between two edges. */
+static void rim_point(const float p[2], const float before[2], const float after[2],
+                      const struct rim_row *row, float out[3]) {
+    float along = 1 + before[0] * after[0] + before[1] * after[1];
+    for (int k = 0; k < 2; k++)
+        out[k] = p[k] - (row->inset != 0 ? row->inset * (before[k] + after[k]) / along : 0);
+    out[2] = row->z;
+}
+
+static void rim_tilt(const struct rim_row *row, const float normal[3], float out[3]) {
+    float c = cosf(row->turn), s = sinf(row->turn), length = hypotf(normal[0], normal[1]);
+    memcpy(out, normal, 3 * sizeof *out);
+    if (row->turn == 0) return;
+    for (int k = 0; k < 2; k++) out[k] = c * normal[k] / length;
+    out[2] = s;
+}
+
 /* The wall along a closed outline; `step` is 1 for the outline, -1 for a hole. */
-static void outline_rim(struct gn_shape *shape, const float (*p)[2], int count, float depth,
-                        int step) {
+static void outline_rim(struct gn_shape *shape, const float (*p)[2], int count,
+                        const struct rim_row *rows, int row_count, int step) {
     for (int i = 0; i < count; i++) {
         const float *before = p[(i - step + count) % count], *a = p[i],
                     *b = p[(i + step + count) % count];
@@ -116,21 +139,64 @@ static void outline_rim(struct gn_shape *shape, const float (*p)[2], int count, 
         rim_normal(edge, last, na);
         rim_normal(edge, next, nb);
         uint32_t first = (uint32_t)shape->vertex_count;
-        for (int row = 0; row < 2; row++) {
-            float z = row ? depth / 2 : -depth / 2;
-            gn_shape_vertex(shape, (float[3]){a[0], a[1], z}, na, (float[2]){0, z});
-            gn_shape_vertex(shape, (float[3]){b[0], b[1], z}, nb, (float[2]){length, z});
+        for (int r = 0; r < row_count; r++) {
+            float pa[3], pb[3], ta[3], tb[3];
+            rim_point(a, last, edge, &rows[r], pa);
+            rim_point(b, edge, next, &rows[r], pb);
+            rim_tilt(&rows[r], na, ta);
+            rim_tilt(&rows[r], nb, tb);
+            gn_shape_vertex(shape, pa, ta, (float[2]){0, rows[r].z});
+            gn_shape_vertex(shape, pb, tb, (float[2]){length, rows[r].z});
         }
-        gn_shape_triangle(shape, first, first + 1, first + 3);
-        gn_shape_triangle(shape, first, first + 3, first + 2);
+        for (uint32_t k = first; k + 2 < first + 2 * (uint32_t)row_count; k += 2) {
+            gn_shape_triangle(shape, k, k + 1, k + 3);
+            gn_shape_triangle(shape, k, k + 3, k + 2);
+        }
     }
 }
 
 void gn_shape_extrude(struct gn_shape *shape, const struct gn_outline *outline, float depth) {
+    const struct rim_row rows[] = {{-depth / 2, 0, 0}, {depth / 2, 0, 0}};
     outline_face(shape, outline, depth / 2, 1);
     outline_face(shape, outline, -depth / 2, -1);
-    outline_rim(shape, outline->points, outline->count, depth, 1);
-    if (outline->hole) outline_rim(shape, outline->hole, outline->hole_count, depth, -1);
+    outline_rim(shape, outline->points, outline->count, rows, 2, 1);
+    if (outline->hole) outline_rim(shape, outline->hole, outline->hole_count, rows, 2, -1);
+}
+
+/* The outline, or its hole (side -1), as it is at `inset`. */
+static void inset_outline(const float (*p)[2], int count, float inset, float side,
+                          float (*out)[2]) {
+    for (int i = 0; i < count; i++) {
+        float last[2], next[2], at[3];
+        edge_normal(p[(i + count - 1) % count], p[i], last);
+        edge_normal(p[i], p[(i + 1) % count], next);
+        rim_point(p[i], last, next, &(struct rim_row){0, side * inset, 0}, at);
+        memcpy(out[i], at, sizeof *out);
+    }
+}
+
+void gn_shape_bevel(struct gn_shape *shape, const struct gn_outline *outline, float depth,
+                    float bevel, int steps) {
+    struct rim_row rows[2 * BEVEL_MAX + 2];
+    float points[OUTLINE_MAX][2], hole[OUTLINE_MAX][2];
+    assert(steps > 0 && steps <= BEVEL_MAX);
+    for (int i = 0; i <= steps; i++) {
+        const float turn = (float)M_PI / 2 * (float)i / (float)steps;
+        rows[steps + 1 + i] =
+            (struct rim_row){depth / 2 - bevel * (1 - sinf(turn)), bevel * (1 - cosf(turn)), turn};
+        rows[steps - i] =
+            (struct rim_row){-rows[steps + 1 + i].z, rows[steps + 1 + i].inset, -turn};
+    }
+    inset_outline(outline->points, outline->count, bevel, 1, points);
+    inset_outline(outline->hole, outline->hole_count, bevel, -1, hole);
+    const struct gn_outline face = {(const float(*)[2])points, outline->count,
+                                    outline->hole ? (const float(*)[2])hole : NULL,
+                                    outline->hole_count};
+    outline_face(shape, &face, depth / 2, 1);
+    outline_face(shape, &face, -depth / 2, -1);
+    outline_rim(shape, outline->points, outline->count, rows, 2 * steps + 2, 1);
+    if (outline->hole)
+        outline_rim(shape, outline->hole, outline->hole_count, rows, 2 * steps + 2, -1);
 }
 
 static void pale(struct gn_shape *shape, const struct gn_fence *f, float x) {

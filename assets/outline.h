@@ -15,6 +15,10 @@ struct gn_outline {
 /* The outline is in the pen's xy plane and extruded in z from -depth/2 to depth/2. */
 void gn_shape_extrude(struct gn_shape *shape, const struct gn_outline *outline, float depth);
 
+/* The same with round edges of radius `bevel`, of `steps` cells. */
+void gn_shape_bevel(struct gn_shape *shape, const struct gn_outline *outline, float depth,
+                    float bevel, int steps);
+
 struct gn_fence {
     float length, height; /* metres, along +x from the pen, standing on y = 0 */
     float pitch;          /* distance between pales, metres */

@@ -34,7 +34,7 @@ static void check_surfaces(struct gn_inspection *in) {
         const bool transparent =
             m->base_color[3] < 1.0f || s->buffers.colors ||
             (texture >= 0 && s->pictures.images[s->pictures.textures[texture].image].has_alpha);
-        if (m->alpha != GN_ALPHA_OPAQUE && !transparent)
+        if (m->alpha != GN_ALPHA_OPAQUE && !transparent && !m->shadow_catcher)
             gn_problem_add(&in->advice, "make it opaque: it is drawn faster, and casts",
                            "material '%s' is %s, but nothing of it is transparent", m->name,
                            m->alpha == GN_ALPHA_MASK ? "masked" : "blended");

@@ -216,6 +216,14 @@ static void test_glass_is_not_called_opaque(void **state) {
     assert_no_advice("nothing of it is transparent");
 }
 
+static void test_the_unseen_floor_is_nobodys_fault(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'rotation':[0.70710678,0,0,0.70710678]}]");
+    inspect();
+    assert_true(scene->added.floor);
+    assert_no_advice("'floor'");
+}
+
 /* ---- the report ---- */
 
 static json_t *report(void) {
