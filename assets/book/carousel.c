@@ -264,6 +264,6 @@ void gn_book_make_carousel(struct gn_book *b) {
                                           .radius = .01f,
                                           .intensity = .32f,
                                           .rgb = {.55f, .70f, 1}});
-    gn_view_add(b->glb,
-                &(struct gn_view){.eye = {1.6f, 4.6f, 11.4f}, .aim = {0, 1.5f, 0}, .yfov_deg = 38});
+    gn_view_add(b->glb, &(struct gn_view){
+                            .eye = {1.4f, 3.1f, 11.4f}, .aim = {0, 1.95f, 0}, .yfov_deg = 37});
 }

@@ -283,8 +283,8 @@ static void add_table(struct gn_book *b, const int *surfaces) {
     gn_book_put(b, "Table", surfaces[OAK], NULL);
     gn_book_chair(gn_book_begin(b, 2));
     const int chair = gn_book_mesh(b, "chair", surfaces[OAK]);
-    static const struct gn_spot chairs[] = {{-.55f, 0, -.25f, 4, 0},
-                                            {.6f, 0, -.3f, -8, 0},
+    static const struct gn_spot chairs[] = {{-.62f, 0, -.25f, 4, 0},
+                                            {.02f, 0, -.3f, -8, 0},
                                             {-1.38f, 0, .55f, 78, 0},
                                             {1.55f, 0, .45f, -82, 0}};
     for (int i = 0; i < GN_COUNT(chairs); i++) gn_book_stand(b, "Chair", chair, chairs[i], NULL);
@@ -427,7 +427,7 @@ static void add_lights(struct gn_book *b) {
                                           .at = {11, 7.4f, -2.4f},
                                           .aim = {1.9f, 0, -.4f},
                                           .radius = .10f,
-                                          .intensity = 1100,
+                                          .intensity = 1800,
                                           .cone_deg = 15,
                                           .rgb = {.42f, .60f, 1},
                                           .keys = "\"gnomon_map_px\":1536"});
@@ -436,7 +436,7 @@ static void add_lights(struct gn_book *b) {
 void gn_book_make_room(struct gn_book *b) {
     int surfaces[SURFACES];
     gn_glb_scene_extras(b->glb,
-                        "{\"gnomon_sky\":[0.085,0.075,0.068],\"gnomon_ground\":[0.060,0.046,0.036],"
+                        "{\"gnomon_sky\":[0.062,0.056,0.052],\"gnomon_ground\":[0.060,0.046,0.036],"
                         "\"gnomon_background\":[0.010,0.014,0.03]}");
     mix_surfaces(b, surfaces);
     add_shell(b, surfaces);
