@@ -1,9 +1,11 @@
 /* Host tool: make_studio FILE writes the studio inside the program (--environment studio),
- * prefiltered. A grey room with a lighter ceiling and soft boxes; the first of them is the key
- * light, which comes from above, the front and the left of the camera that scenes without one get.
- * Neutral: all is grey, but the key is a little warm and the boxes behind a little cool. */
+ * prefiltered; FILE.hdr: as a Radiance picture of 1024x512, for other programs. A grey room with a
+ * lighter ceiling and soft boxes; the first of them is the key light, which comes from above, the
+ * front and the left of the camera that scenes without one get. Neutral: all is grey, but the key
+ * is a little warm and the boxes behind a little cool. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "environment/environment.h"
 
@@ -61,30 +63,60 @@ static void radiance_of(const float d[3], float rgb[3]) {
     }
 }
 
-static struct gn_environment studio;
-static uint8_t bytes[GN_ENVIRONMENT_FILE_BYTES];
+enum { WIDTH = 2048, HEIGHT = 1024 };
 
-int main(int argc, char **argv) {
-    enum { WIDTH = 2048, HEIGHT = 1024 };
+/* Radiance of a row of the picture of all directions. */
+static void fill_row(uint32_t y, uint32_t width, uint32_t height, float (*row)[3]) {
+    const float pi = 3.14159265358979f, down = pi * ((float)y + 0.5f) / (float)height;
+    for (uint32_t x = 0; x < width; x++) {
+        const float around = 2.0f * pi * ((float)x + 0.5f) / (float)width - pi;
+        const float d[3] = {sinf(down) * cosf(around), cosf(down), sinf(down) * sinf(around)};
+        radiance_of(d, row[x]);
+    }
+}
+
+static bool write_prefiltered(FILE *file) {
+    static struct gn_environment studio;
+    static uint8_t bytes[GN_ENVIRONMENT_FILE_BYTES];
     static float row[WIDTH][3];
     const uint32_t px[2] = {WIDTH, HEIGHT};
-    const float pi = 3.14159265358979f;
-    if (argc != 2) return 2;
     struct gn_sphere *sphere = gn_sphere_create();
     for (uint32_t y = 0; y < HEIGHT; y++) {
-        const float down = pi * ((float)y + 0.5f) / HEIGHT;
-        for (uint32_t x = 0; x < WIDTH; x++) {
-            const float around = 2.0f * pi * ((float)x + 0.5f) / WIDTH - pi;
-            const float d[3] = {sinf(down) * cosf(around), cosf(down), sinf(down) * sinf(around)};
-            radiance_of(d, row[x]);
-        }
+        fill_row(y, WIDTH, HEIGHT, row);
         gn_sphere_add_row(sphere, y, px, (const float(*)[3])row);
     }
     gn_environment_make(sphere, 1, &studio);
     gn_sphere_destroy(sphere);
     gn_environment_write(&studio, bytes);
+    return fwrite(bytes, sizeof bytes, 1, file) == 1;
+}
+
+/* Mantissas over an exponent that the channels share; neither runs nor an exposure. */
+static bool write_hdr(FILE *file) {
+    static float row[WIDTH / 2][3];
+    bool ok = fprintf(file, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", HEIGHT / 2,
+                      WIDTH / 2) > 0;
+    for (uint32_t y = 0; y < HEIGHT / 2 && ok; y++) {
+        fill_row(y, WIDTH / 2, HEIGHT / 2, row);
+        for (uint32_t x = 0; x < WIDTH / 2; x++) {
+            const float *c = row[x];
+            int exponent;
+            frexpf(fmaxf(c[0], fmaxf(c[1], c[2])) * 1.002f,
+                   &exponent); /* no mantissa rounds to 256 */
+            uint8_t rgbe[4] = {0, 0, 0, (uint8_t)(exponent + 128)};
+            for (int k = 0; k < 3; k++) rgbe[k] = (uint8_t)lrintf(ldexpf(c[k], 8 - exponent));
+            ok &= fwrite(rgbe, sizeof rgbe, 1, file) == 1;
+        }
+    }
+    return ok;
+}
+
+int main(int argc, char **argv) {
+    if (argc != 2) return 2;
+    const char *suffix = strrchr(argv[1], '.');
+    const bool is_hdr = suffix && strcmp(suffix, ".hdr") == 0;
     FILE *file = fopen(argv[1], "wb");
-    if (!file || fwrite(bytes, sizeof bytes, 1, file) != 1 || fclose(file) != 0) {
+    if (!file || !(is_hdr ? write_hdr(file) : write_prefiltered(file)) || fclose(file) != 0) {
         perror(argv[1]);
         return 1;
     }
