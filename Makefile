@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall # goals that need neither a compiler
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2
+CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2 check-modelviewer check-tangents
 .PHONY: all no-import tests sanitized run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
@@ -35,7 +35,11 @@ help:
 	    'make check-gpus every program on the compilers of GPUs that are not here, and its cost' \
 	    'make check-gpiod2' \
 	    '                buttons with libgpiod 2, and the rest of Debian 13; with GN_FULL=1 its long form' \
-	    'make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too' \
+	    'make check-modelviewer' \
+    '                colours against model-viewer in Chromium, by npm, on the models of ../shared/assets' \
+    'make check-tangents' \
+    '                tangents against the reference algorithm, by npm' \
+    'make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too' \
 	    'make benchmark  the open benchmark (assets/benchmark): scenes, truths, the table of all techniques;' \
 	    '                make benchmark-scenes: the scenes only' \
 	    'make readme     the table of techniques (src/shadow/README.md), measured' \
@@ -70,6 +74,8 @@ DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
 DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
 DEPS_check-gpus := build run gpus
 DEPS_check-gpiod2 := build run test board
+DEPS_check-modelviewer := build run test
+DEPS_check-tangents := build run test
 DEPS_accept := build run test board board-arm64 gpus
 DEPS_full := $(DEPS_accept)
 DEPS_truth := build run test
@@ -165,7 +171,7 @@ LIBS    += $(MESHOPT)
 unused  := $(without) src/scene/gltf/$(if $(MESHOPT),meshopt_none.c,meshopt.c) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/import/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
-PROG_C  := $(foreach d,unit plan image fuzz kms angle,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
+PROG_C  := $(foreach d,unit plan image fuzz kms angle modelviewer tangents,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
 TESTLIB := $(B)/libgntest.a
@@ -347,6 +353,10 @@ gpiod2:
 	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(addprefix $(GPIOD2)/tests/,firstflip.so keyboard)
 check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST) gpiod2
 	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
+check-modelviewer: $(BIN) $(B)/tests/tool_modelviewer $(B)/tests/tool_sheet $(O)/host/make_studio
+	GNOMON=$(BIN) BUILD=$(B) tests/modelviewer/modelviewer.sh
+check-tangents: $(B)/tests/tool_tangents
+	BUILD=$(B) tests/tangents/tangents.sh
 # What check leaves out: the long forms; what tests/timeouts leaves to accept, and the sanitizers
 # over the other kinds, in their quick forms; machines, and processors and GPUs that are not here.
 # What takes longest of these is left to full: under sanitizers the tests of pictures that tests/timeouts
