@@ -1,17 +1,18 @@
 // modelviewer.mjs PACKAGE ASSETS HDR OUT CHROMIUM SIZE LIST: serves modelviewer.html, model-viewer, the environment and the
 // models to a headless Chromium, which draws each model and sends the picture and its camera back. Writes OUT/NAME-there.png,
-// OUT/NAME.camera (options of gnomon), and OUT/NAME.glb of a binary model with lights or cameras: without them.
+// OUT/NAME.camera (options of gnomon), and OUT/NAME.glb: a binary model that has lights or cameras without them, or a chart.
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
+import { chart } from './chart.mjs';
 
 const [packageFolder, assets, hdr, out, chromium, size, list] = process.argv.slice(2);
 const here = path.dirname(new URL(import.meta.url).pathname);
 const models = fs.readFileSync(list, 'utf8').split('\n').filter((line) => line && !line.startsWith('#')).map((line) => {
     const [name, file, theta, phi] = line.split(/\s+/);
-    return { name, file: path.isAbsolute(file) ? file : path.join(assets, file), theta, phi };
+    return { name, file: file.startsWith('chart:') ? file : path.join(assets, file), theta, phi };
 });
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.gltf': 'model/gltf+json', '.glb': 'model/gltf-binary', '.png': 'image/png', '.jpg': 'image/jpeg' };
 
@@ -37,7 +38,7 @@ function bare(file) {
 }
 
 for (const model of models) {
-    const copy = bare(model.file);
+    const copy = model.file.startsWith('chart:') ? chart(model.file.slice(6).split(',')) : bare(model.file);
     if (!copy) continue;
     model.file = path.join(out, `${model.name}.glb`);
     fs.writeFileSync(model.file, copy);

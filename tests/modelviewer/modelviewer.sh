@@ -1,11 +1,11 @@
 #!/bin/sh
 # modelviewer.sh [LIST [HDR]]: models drawn by model-viewer, in a headless Chromium by SwiftShader, and by gnomon, with the
-# same environment, camera and tone mapping; prints how much their colours differ. LIST: tests/modelviewer/models.
+# same environment, camera and tone mapping; prints how much their colours differ. LIST: models, or chart, of spheres.
 # Installs nothing. CHROMIUM names the browser, MODEL_VIEWER the folder of the npm package, ASSETS that of the models;
 # SAME=1 takes the pictures of model-viewer that are there. Exit status 77: something is missing; 1: a goal is missed.
 set -eu
 cd "$(dirname "$0")/../.."
-list=${1:-tests/modelviewer/models}
+list=tests/modelviewer/${1:-models}
 gnomon=${GNOMON:-build/release/gnomon} build=${BUILD:-build/release}
 package=$(realpath -m "${MODEL_VIEWER:-build/modelviewer/node_modules/@google/model-viewer}")
 assets=$(realpath -m "${ASSETS:-../shared/assets}")
@@ -34,7 +34,7 @@ missed=0
 # shellcheck disable=SC2046
 while read -r name file _; do
     case $name in '' | '#'*) continue ;; esac
-    case $file in /*) ;; *) file=$assets/$file ;; esac
+    file=$assets/$file
     [ ! -e "$out/$name.glb" ] || file=$out/$name.glb
     "$gnomon" render "$file" -o "$out/$name-here.png" --size 640x480 --environment "$hdr" --tone neutral --exposure 0 --shadow none \
         --floor none --no-animation --background transparent --msaa 4 $(cat "$out/$name.camera")
