@@ -89,8 +89,8 @@ struct surface {
     vec3 normal, to_eye, diffuse, specular;
     vec3 smooth_normal; // of the mesh, towards the viewer, not of unit length; with a normal map
     float exponent;
-    vec3 f0; // with ENVIRONMENT: reflectance at normal incidence
-    float roughness;
+    vec3 f0; // with ENVIRONMENT or TRANSMISSION: environment_facing_share()
+    float roughness, alpha;
 #ifdef WITH_COAT
     vec3 coat_normal; // unit
     float coat, coat_roughness; // share of the light that the coat reflects
@@ -113,7 +113,8 @@ void surface_add_coat(vec3 smooth_normal, inout surface s) {
 #endif
     s.coat_normal = smooth_normal;
     s.coat_roughness = coat.y;
-    s.coat = coat.x * environment_share(vec3(0.04), coat.y, dot(smooth_normal, s.to_eye)).x;
+    vec3 facing = environment_facing_share(vec3(0.04), coat.y * coat.y);
+    s.coat = coat.x * environment_share(facing, coat.y, dot(smooth_normal, s.to_eye)).x;
 #endif
 }
 
@@ -142,8 +143,12 @@ surface surface_make(vec4 base, vec3 smooth_normal) {
         vec3 f0 = surface_reflectance();
         s.f0 = METAL ? mix(f0, base.rgb, rm.y) : f0;
         s.roughness = rm.x;
+        s.alpha = alpha;
 #ifdef WITH_ENVIRONMENT
         if (METAL) s.f0 = base.rgb * rm.y + (f0 - f0 * rm.y);
+#endif
+#if defined WITH_ENVIRONMENT || defined WITH_TRANSMISSION
+        s.f0 = environment_facing_share(s.f0, alpha);
 #endif
         s.specular = s.f0 * (0.125 * s.exponent + 1.0);
         if (METAL) s.diffuse = base.rgb * (1.0 - rm.y);
@@ -200,7 +205,7 @@ vec3 surface_ambient(surface s, vec3 base) {
     float open = surface_open();
 #ifdef WITH_ENVIRONMENT
     float n_v = dot(s.normal, s.to_eye);
-    vec3 along = environment_direction(2.0 * n_v * s.normal - s.to_eye);
+    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.alpha);
     vec3 share = environment_share(s.f0, s.roughness, n_v); // seen from behind, below 0: as at a grazing angle
     vec3 reflected = textureLod(u_environment, along, s.roughness * ENVIRONMENT_ROUGHEST).rgb;
     if (ENVIRONMENT_DIFFUSE) return mix(s.diffuse * ambient, reflected, share) * open;
@@ -331,6 +336,9 @@ void main() {
         vec3 coat = COAT && !ADDITIVE ? coat_ambient(s) : vec3(0.0);
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
+#ifdef WITH_ENVIRONMENT_DIFFUSE // environment_facing_share(0.04, 1.0), so that full roughness is nothing apart
+        if (!SPECULAR) base.rgb = base.rgb * 0.9836 + 0.0164;
+#endif
         color = SPECULAR ? light : light * base.rgb;
         if (EMISSIVE) color += surface_emission();
 #ifdef WITH_COAT

@@ -18,11 +18,12 @@
 
 enum { ROUGHNESSES = 9, WIDTH = 480, HEIGHT = 120 };
 
-enum { ROWS = 6 };
-static char folder[512], scenes[ROWS][600], uniform[600], half[600];
+enum { ROWS = 6, GREY = ROWS, SCENES };
+static char folder[512], scenes[SCENES][600], uniform[600], half[600];
 
-/* A row of spheres of rising roughness. light: one of its own, unlike any other. */
-static void write_spheres(const char *path, double metalness, const char *more, bool light) {
+/* A row of spheres of rising roughness, white or grey. light: one of its own, unlike any other. */
+static void write_spheres(const char *path, double metalness, double base, const char *more,
+                          bool light) {
     struct gn_maker maker;
     struct gn_err err = {0};
     gn_maker_init(&maker);
@@ -30,8 +31,9 @@ static void write_spheres(const char *path, double metalness, const char *more, 
     char text[400], nodes[200] = "";
     for (int i = 0; i < ROUGHNESSES; i++) {
         snprintf(text, sizeof text,
-                 "{%s'pbrMetallicRoughness':{'metallicFactor':%g,'roughnessFactor':%g}}", more,
-                 metalness, i / (ROUGHNESSES - 1.0));
+                 "{%s'pbrMetallicRoughness':{'baseColorFactor':[%g,%g,%g,1],'metallicFactor':%g,"
+                 "'roughnessFactor':%g}}",
+                 more, base, base, base, metalness, i / (ROUGHNESSES - 1.0));
         gn_maker_add(&maker, "materials", text);
         snprintf(text, sizeof text,
                  "{'primitives':[{'attributes':{'POSITION':0,'NORMAL':1},'indices':2,"
@@ -102,6 +104,23 @@ static void test_white_spheres_lose_nothing_in_uniform_light(void **state) {
         check_uniform(&picture, 1.0f, what[s]);
         gn_picture_finish(&picture);
     }
+}
+
+/* A metal of the reflectance f returns f E of the first reflection and f (1 - E) of that to the
+ * next: f E / (1 - f (1 - E)). E: of GGX on average, integrated over 33 cosines with 4096 samples
+ * each. */
+static void test_grey_metals_lose_what_microfacets_lose(void **state) {
+    (void)state;
+    static const double returned[4] = {0.987, 0.882, 0.656, 0.409}; /* roughness 1/4, 1/2, 3/4, 1 */
+    struct gn_picture picture = draw(scenes[GREY], uniform, NULL, NULL);
+    for (int i = 0; i < 4; i++) {
+        const double wanted = 0.5 * returned[i] / (1 - 0.5 * (1 - returned[i]));
+        const int x = WIDTH / 2 + (2 + 2 * i - ROUGHNESSES / 2) * WIDTH / 10;
+        const double here = (double)*gn_picture_at(&picture, x, HEIGHT / 2);
+        if (fabs(here - wanted) > 0.07 * wanted)
+            fail_msg("roughness %d/4: %.4f instead of %.4f", i + 1, here, wanted);
+    }
+    gn_picture_finish(&picture);
 }
 
 static void test_strength_and_exposure_are_factors(void **state) {
@@ -339,15 +358,16 @@ static int set_up(void **state) {
     snprintf(folder, sizeof folder, "%.400s/furnace.%d", build, (int)getpid());
     mkdir(folder, 0700);
     setenv("XDG_CACHE_HOME", folder, 1);
-    for (int i = 0; i < ROWS; i++) snprintf(scenes[i], sizeof scenes[i], "%s/%d.glb", folder, i);
+    for (int i = 0; i < SCENES; i++) snprintf(scenes[i], sizeof scenes[i], "%s/%d.glb", folder, i);
     snprintf(uniform, sizeof uniform, "%s/uniform.hdr", folder);
     snprintf(half, sizeof half, "%s/half.hdr", folder);
-    write_spheres(scenes[0], 0, "", false);
-    write_spheres(scenes[1], 1, "", false);
-    write_spheres(scenes[2], 0, "'doubleSided':true,", false);
-    write_spheres(scenes[3], 0, COAT("1", "0"), false);
-    write_spheres(scenes[4], 0, COAT("0.5", "0.7"), false);
-    write_spheres(scenes[5], 1, COAT("1", "0.2"), false);
+    write_spheres(scenes[0], 0, 1, "", false);
+    write_spheres(scenes[1], 1, 1, "", false);
+    write_spheres(scenes[2], 0, 1, "'doubleSided':true,", false);
+    write_spheres(scenes[3], 0, 1, COAT("1", "0"), false);
+    write_spheres(scenes[4], 0, 1, COAT("0.5", "0.7"), false);
+    write_spheres(scenes[5], 1, 1, COAT("1", "0.2"), false);
+    write_spheres(scenes[GREY], 1, 0.5, "", false);
     return gn_uniform_write(uniform, 0) && gn_uniform_write(half, -1) ? 0 : 1;
 }
 
@@ -361,6 +381,7 @@ static int tear_down(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_white_spheres_lose_nothing_in_uniform_light),
+        cmocka_unit_test(test_grey_metals_lose_what_microfacets_lose),
         cmocka_unit_test(test_strength_and_exposure_are_factors),
         cmocka_unit_test(test_the_environment_turns),
         cmocka_unit_test(test_it_is_seen_where_it_is),
