@@ -216,10 +216,12 @@ vec3 surface_ambient(surface s, vec3 base) {
 #endif
 }
 
-// n_h: cosine between the normal and the half vector.
+// n_h: cosine between the normal and the half vector. ENVIRONMENT_KEY: that share of the light is alpha, and the environment shows
+// the rest (gn_environment_key_share()).
 vec3 surface_highlight(surface s, float n_h) {
     float lobe = pow(n_h, s.exponent);
 #ifdef WITH_ENVIRONMENT // which needs f0 anyway
+    if (ENVIRONMENT_KEY) lobe *= s.alpha;
     return s.f0 * (lobe * (0.125 * s.exponent + 1.0));
 #else
     return s.specular * lobe;

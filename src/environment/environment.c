@@ -16,11 +16,35 @@ static void make_light(const struct gn_sphere *sphere, int threads,
     gn_sphere_harmonics(sphere, out->harmonics);
 }
 
+float gn_environment_key_share(float roughness) { return roughness * roughness; }
+
+/* The light of a texel is a sum over the sphere, so that shares of it can be mixed. */
+static void make_shown(struct gn_environment *environment) {
+    const uint32_t *whole = environment->whole.texels, *rest = environment->rest.texels;
+    uint32_t *to = environment->shown.texels;
+    int i = 0;
+    environment->shown = environment->rest;
+    for (int level = 0; level < GN_ENVIRONMENT_LEVELS; level++) {
+        const float taken = gn_environment_key_share((float)level / (GN_ENVIRONMENT_LEVELS - 1));
+        const int side = GN_ENVIRONMENT_PX >> level, end = i + 6 * side * side;
+        for (; i < end; i++) {
+            float with[3], without[3];
+            if (taken <= 0.0f) to[i] = whole[i];
+            if (taken <= 0.0f || taken >= 1.0f) continue;
+            gn_environment_unpack(whole[i], with);
+            gn_environment_unpack(rest[i], without);
+            for (int k = 0; k < 3; k++) with[k] += taken * (without[k] - with[k]);
+            to[i] = gn_environment_pack(with);
+        }
+    }
+}
+
 void gn_environment_make(struct gn_sphere *sphere, int threads, struct gn_environment *out) {
     gn_sphere_complete(sphere);
     make_light(sphere, threads, &out->whole);
     gn_sphere_take_key(sphere, &out->key);
     make_light(sphere, threads, &out->rest);
+    make_shown(out);
 }
 
 struct picture {
@@ -51,7 +75,7 @@ bool gn_environment_read_hdr(const uint8_t *data, size_t size, int threads,
 /* ---- kept: a name with the version, words in little-endian order, a hash of all before ---- */
 
 static const char name[8] = "GNENV 1";
-enum { WORDS = sizeof(struct gn_environment) / 4 };
+enum { WORDS = offsetof(struct gn_environment, shown) / 4 };
 _Static_assert(sizeof(struct gn_environment) % 4 == 0, "words");
 
 void gn_environment_write(const struct gn_environment *environment,
@@ -76,5 +100,6 @@ bool gn_environment_read(const uint8_t *data, size_t size, struct gn_environment
         for (int k = 0; k < 4; k++) word |= (uint32_t)data[8 + 4 * i + k] << 8 * k;
         memcpy((char *)out + 4 * i, &word, 4);
     }
+    make_shown(out);
     return true;
 }

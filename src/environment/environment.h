@@ -37,7 +37,12 @@ struct gn_environment_key {
 struct gn_environment {
     struct gn_environment_light whole, rest; /* rest: without the key */
     struct gn_environment_key key;
+    struct gn_environment_light shown; /* rest, but smooth surfaces reflect what the key's highlight
+                                          lacks of it: gn_environment_key_share() */
 };
+/* Share of the key that its highlight has, beside `shown`: its shape in a mirror is that of the
+ * environment, and what rough surfaces reflect can be shadowed. */
+float gn_environment_key_share(float roughness);
 
 /* ---- the light of a sphere, gathered ---- */
 
@@ -60,7 +65,7 @@ bool gn_environment_read_hdr(const uint8_t *data, size_t size, int threads,
 
 /* ---- kept in a file ---- */
 
-enum { GN_ENVIRONMENT_FILE_BYTES = 8 + (int)sizeof(struct gn_environment) + 8 };
+enum { GN_ENVIRONMENT_FILE_BYTES = 8 + (int)offsetof(struct gn_environment, shown) + 8 };
 void gn_environment_write(const struct gn_environment *environment,
                           uint8_t out[GN_ENVIRONMENT_FILE_BYTES]);
 /* False: it is broken, or of another version. */

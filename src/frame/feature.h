@@ -43,6 +43,7 @@
     X(COAT, "coat")                 /* a clear coat over the rest */                               \
     X(TRANSMISSION, "transmission") /* shows what is behind. LIT with UNLIT: its tint alone */     \
     X(TINTED, "tinted") /* LIT: in colour, which a draw before has multiplied in; this one adds */ \
+    X(ENVIRONMENT_KEY, "environment-key") /* smooth surfaces reflect it with its key light */      \
     X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */
 
 enum gn_feature_bit {

@@ -98,9 +98,13 @@ static void choose_finish(struct gn_frame *frame, const struct gn_frame_opts *op
 static void choose_environment(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     const struct gn_frame_environment_opts *e = &opts->environment;
     const bool is_drawn = e->of && e->strength > 0.0f && opts->debug.aov == GN_AOV_COLOR;
+    frame->environment.shows_key = false;
     if (!is_drawn) return;
-    frame->plan.environment.light = e->lights_key ? &e->of->rest : &e->of->whole;
-    frame->plan.environment.id = e->id + e->lights_key;
+    frame->environment.shows_key = e->lights_key && e->shows_key;
+    frame->plan.environment.light = !e->lights_key ? &e->of->whole
+                                    : e->shows_key ? &e->of->shown
+                                                   : &e->of->rest;
+    frame->plan.environment.id = e->id + (e->lights_key ? 1 + e->shows_key : 0);
     frame->environment.reflected_only = e->reflected_only;
     frame->environment.turned = e->turn_rad != 0.0f;
 }

@@ -112,10 +112,12 @@ struct gn_frame_environment_opts {
     bool lights_key;     /* the light that was made for the scene is its key: only the rest is the
                             environment. Its colour and radius are among shadow.lights, its
                             direction is in the pose */
+    bool shows_key;      /* with lights_key: the light has the key's place and colour, so that
+                            smooth surfaces may reflect the key as the environment has it */
     bool reflected_only; /* in materials that need reflections alone; the hemispheres stay */
     enum gn_environment_show show; /* in place of opts->background, unless that is transparent */
     float turn_rad;                /* about +Y */
-    float strength;      /* factor on its radiance; must be set */
+    float strength;                /* factor on its radiance; must be set */
 };
 
 struct gn_frame_opts {

@@ -40,6 +40,8 @@ static uint64_t environment_features(const struct gn_frame *frame, const struct 
     if (!features) return 0;
     if (frame->environment.scaled) features |= GN_FEATURE(ENVIRONMENT_SCALED);
     if (frame->environment.turned) features |= GN_FEATURE(ENVIRONMENT_TURNED);
+    if (frame->environment.shows_key && features & GN_FEATURE(ENVIRONMENT))
+        features |= GN_FEATURE(ENVIRONMENT_KEY);
     return features;
 }
 
@@ -195,7 +197,7 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_frame_opts *opts) {
     uint64_t once = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
                     GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
-                    GN_FEATURE(ENVIRONMENT_TURNED);
+                    GN_FEATURE(ENVIRONMENT_TURNED) | GN_FEATURE(ENVIRONMENT_KEY);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_texture_slots[slot].shading >= GN_SHADING_EMISSION)
             once |= texture_bit(slot) | uv1_bit(slot);

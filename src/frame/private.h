@@ -67,7 +67,7 @@ struct gn_frame {
     bool has_middle; /* some item casts by its middle */
     struct {
         bool reflected_only; /* as in gn_frame_environment_opts */
-        bool scaled, turned;
+        bool scaled, turned, shows_key;
     } environment; /* of this frame */
     struct {
         GN_LIST(struct gn_light_note) lights; /* by the scene's lights */

@@ -163,7 +163,7 @@ static const struct open_environment *open_environment(const char *name, struct 
     }
     *open->of = *read;
     open->info = info;
-    open->id = (gn_hash(GN_HASH_INIT, read, sizeof *read) | 2) & ~UINT64_C(1);
+    open->id = (gn_hash(GN_HASH_INIT, read, sizeof *read) | 4) & ~UINT64_C(3);
     free(read);
     return open;
 }

@@ -170,6 +170,10 @@ static void warn_of_name(const struct gn_light_section *section, const struct gn
             section->label, section->name, names);
 }
 
+static bool is_moved(const struct gn_light_settings *s) {
+    return !isnan(s->azimuth_deg) || !isnan(s->elevation_deg) || s->follows_camera;
+}
+
 /* To the key of the environment, or as it was made. */
 static void aim_at_key(struct gn_pose *pose, const struct gn_frame_environment_opts *e) {
     gn_pose_aim(pose, NULL);
@@ -184,7 +188,7 @@ void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
     const struct gn_light_settings *s = &settings->light;
     const struct gn_scene *scene = pose->scene;
     const struct gn_frame_environment_opts *e = &opts->environment;
-    const bool moved = !isnan(s->azimuth_deg) || !isnan(s->elevation_deg) || s->follows_camera;
+    const bool moved = is_moved(s);
     if (!scene->added.light || !(moved || pose->aimed || (e->of && e->lights_key))) return;
     aim_at_key(pose, e);
     if (!moved) return;
@@ -231,6 +235,19 @@ void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *
     entry->radius = key->radius;
     for (int k = 0; k < 3; k++) entry->color[k] = key->color[k] * strength;
     entry->given |= GN_LIGHT_RADIUS | GN_LIGHT_COLOR;
+}
+
+bool gn_stage_keeps_key(const struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
+                        const struct gn_scene *scene, const struct gn_environment_key *key,
+                        float strength) {
+    bool keeps = false;
+    for (uint32_t i = 0; i < opts->light_count; i++) {
+        const struct gn_frame_light_opts *entry = &opts->lights[i];
+        if (entry->light != scene->light_count - 1) continue;
+        keeps = !(entry->given & GN_LIGHT_OFF);
+        for (int k = 0; k < 3; k++) keeps &= entry->color[k] == key->color[k] * strength;
+    }
+    return keeps && !is_moved(&settings->light);
 }
 
 void gn_stage_print_light(const struct gn_settings *settings,

@@ -21,6 +21,10 @@ void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
  * say otherwise. */
 void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *scene,
                       const struct gn_environment_key *key, float strength);
+/* After both: whether settings leave the direction and colour of that light. */
+bool gn_stage_keeps_key(const struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
+                        const struct gn_scene *scene, const struct gn_environment_key *key,
+                        float strength);
 /* What holds of a section, as "shadow = pcss, map = 512"; "" if that is nothing. */
 void gn_stage_print_light(const struct gn_settings *settings,
                           const struct gn_light_section *section, char *out, size_t size);

@@ -232,6 +232,9 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
         !do_without(o, offsetof(struct gn_settings, render.environment), warnings, err))
         return false;
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
+    struct gn_frame_environment_opts *e = &look->frame_opts.environment;
+    e->shows_key = e->of && e->lights_key &&
+                   gn_stage_keeps_key(&look->frame_opts.shadow, o, scene, &e->of->key, e->strength);
     if (look->frame_opts.msaa > 1 && casts_rays(&look->frame_opts.shadow))
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
                              gn_settings_label(o, render.msaa), look->frame_opts.msaa);

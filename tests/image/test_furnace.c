@@ -123,6 +123,28 @@ static void test_grey_metals_lose_what_microfacets_lose(void **state) {
     gn_picture_finish(&picture);
 }
 
+static int count_bright(const struct gn_picture *picture) {
+    int count = 0;
+    const int x0 = WIDTH / 2 - ROUGHNESSES / 2 * WIDTH / 10, r = 20;
+    for (int y = -r; y <= r; y++)
+        for (int x = -r; x <= r; x++) count += *gn_picture_at(picture, x0 + x, HEIGHT / 2 + y) > 8;
+    return count;
+}
+
+/* The studio's first box has the radiance 17; all others 3 at most. A light that was moved is no
+ * longer the box: then the mirror shows as much of it as of the others, and a small highlight. */
+static void test_a_mirror_shows_the_key_as_the_environment_has_it(void **state) {
+    (void)state;
+    struct gn_picture kept = draw(scenes[1], "studio", NULL, NULL),
+                      moved = draw(scenes[1], "studio", "--light-elevation", "30");
+    const int there = count_bright(&kept), elsewhere = count_bright(&moved);
+    print_message("%d pixels of a mirror show the key, %d if the light is elsewhere\n", there,
+                  elsewhere);
+    assert_true(there >= 8 && elsewhere <= 2);
+    gn_picture_finish(&kept);
+    gn_picture_finish(&moved);
+}
+
 static void test_strength_and_exposure_are_factors(void **state) {
     (void)state;
     struct gn_picture picture = draw(scenes[1], uniform, "--environment-strength", "0.25");
@@ -382,6 +404,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_white_spheres_lose_nothing_in_uniform_light),
         cmocka_unit_test(test_grey_metals_lose_what_microfacets_lose),
+        cmocka_unit_test(test_a_mirror_shows_the_key_as_the_environment_has_it),
         cmocka_unit_test(test_strength_and_exposure_are_factors),
         cmocka_unit_test(test_the_environment_turns),
         cmocka_unit_test(test_it_is_seen_where_it_is),

@@ -148,6 +148,31 @@ static void test_the_key_is_the_lamp_and_rest_lacks_its_light(void **state) {
     assert_true(fabsf(taken - made.key.color[1]) < 0.02f * lux);
 }
 
+/* Level by level: what the highlight of the key lacks of it is in the reflections. */
+static void test_shown_and_highlight_have_all_of_the_key(void **state) {
+    (void)state;
+    struct gn_sphere *sphere = make_sphere(radiance_of);
+    gn_environment_make(sphere, 2, &made);
+    gn_sphere_destroy(sphere);
+    assert_memory_equal(made.shown.harmonics, made.rest.harmonics, sizeof made.rest.harmonics);
+    double mixed = 0;
+    for (int level = 0, i = 0; level < GN_ENVIRONMENT_LEVELS; level++) {
+        const int side = GN_ENVIRONMENT_PX >> level;
+        const double share = (double)(level * level) / 16; /* of the highlight: roughness squared */
+        for (const int end = i + 6 * side * side; i < end; i++) {
+            float whole[3], rest[3], shown[3];
+            gn_environment_unpack(made.whole.texels[i], whole);
+            gn_environment_unpack(made.rest.texels[i], rest);
+            gn_environment_unpack(made.shown.texels[i], shown);
+            const double key = (double)whole[1] - (double)rest[1],
+                         sum = (double)shown[1] + share * key;
+            mixed += level > 0 && level < 4 ? fabs(key) : 0;
+            assert_true(fabs(sum - (double)whole[1]) <= (double)shown[1] / 64);
+        }
+    }
+    assert_true(mixed > 100);
+}
+
 static void test_threads_change_no_bit(void **state) {
     (void)state;
     static struct gn_environment alone;
@@ -218,6 +243,7 @@ int main(void) {
         cmocka_unit_test(test_the_tree_sums_what_brute_force_sums),
         cmocka_unit_test(test_harmonics_are_near_the_cosine_integral),
         cmocka_unit_test(test_the_key_is_the_lamp_and_rest_lacks_its_light),
+        cmocka_unit_test(test_shown_and_highlight_have_all_of_the_key),
         cmocka_unit_test(test_threads_change_no_bit),
         cmocka_unit_test(test_texels_are_rounded_and_keep_powers_of_two),
         cmocka_unit_test(test_a_kept_file_is_whole_or_refused),
