@@ -218,9 +218,15 @@ static void test_glass_is_not_called_opaque(void **state) {
 
 static void test_the_unseen_floor_is_nobodys_fault(void **state) {
     (void)state;
-    gn_maker_set(&maker, "nodes", "[{'mesh':0,'rotation':[0.70710678,0,0,0.70710678]}]");
-    inspect();
+    const struct gn_scene_limits limits = {.floor = {.kind = GN_FLOOR_AUTO}};
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'rotation':[0.5,0,0,0.8660254]}]");
+    struct gn_made glb = gn_maker_glb(&maker);
+    scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+    free(glb.data);
+    gn_maker_finish(&maker);
+    if (!scene) fail_msg("%s", err.text);
     assert_true(scene->added.floor);
+    gn_inspect_build(&in, "t", scene, 0, &warnings);
     assert_no_advice("'floor'");
 }
 
@@ -300,6 +306,7 @@ int main(void) {
         TEST(test_a_deep_camera_is_noticed),
         TEST(test_blend_without_transparency_is_noticed),
         TEST(test_glass_is_not_called_opaque),
+        TEST(test_the_unseen_floor_is_nobodys_fault),
         TEST(test_json_has_its_fields),
         TEST(test_warnings_stand_in_the_report),
         TEST(test_text_moves_no_cursor),
