@@ -205,7 +205,7 @@ vec3 surface_ambient(surface s, vec3 base) {
     float open = surface_open();
 #ifdef WITH_ENVIRONMENT
     float n_v = dot(s.normal, s.to_eye);
-    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.alpha);
+    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.roughness);
     vec3 share = environment_share(s.f0, s.roughness, n_v); // seen from behind, below 0: as at a grazing angle
     vec3 reflected = textureLod(u_environment, along, s.roughness * ENVIRONMENT_ROUGHEST).rgb;
     if (ENVIRONMENT_DIFFUSE) return mix(s.diffuse * ambient, reflected, share) * open;
@@ -338,7 +338,7 @@ void main() {
         vec3 coat = COAT && !ADDITIVE ? coat_ambient(s) : vec3(0.0);
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
-#ifdef WITH_ENVIRONMENT_DIFFUSE // environment_facing_share(0.04, 1.0), so that full roughness is nothing apart
+#ifdef WITH_ENVIRONMENT_DIFFUSE // what full roughness reflects at an IOR of 1.5
         if (!SPECULAR) base.rgb = base.rgb * 0.9836 + 0.0164;
 #endif
         color = SPECULAR ? light : light * base.rgb;

@@ -30,10 +30,10 @@ void environment_diffuse(vec3 n, out vec3 even, out vec3 odd) {
 // Share of white light from all sides that a surface reflects to an eye in front of it, by its reflectance at normal incidence; alpha:
 // roughness squared. What one reflection loses between microfacets (of GGX on average 0.01, 0.12, 0.34, 0.59 at roughness 1/4 .. 1)
 // comes back by further ones, each dimmed by f0: Fdez-Aguera, "A Multiple-Scattering Microfacet Model for Real-Time Image-Based
-// Lighting" (2019). The sum is f0 (1 - lost) / (1 - lost f0), within 7 % of this. So white reflects all.
+// Lighting" (2019). The sum of a metal is f0 (1 - lost) / (1 - lost f0), within 10 % of this. So white reflects all.
 vec3 environment_facing_share(vec3 f0, float alpha) {
-    float lost = 0.6 * alpha, kept = 1.0 - lost;
-    return f0 * (kept + lost * f0 * (kept + lost * f0));
+    float lost = 0.8 * alpha;
+    return f0 * (lost * f0 + (1.0 - lost));
 }
 
 // The same for an eye at that cosine. Karis, "Physically Based Shading on Mobile" (2014): his term b, without a factor of 1.04 and
@@ -46,8 +46,8 @@ vec3 environment_share(vec3 facing, float roughness, float n_v) {
 
 // Where a surface looks for what it reflects. Rough ones gather it around their normal: what lies behind their horizon is nothing
 // that they could reflect. Not of unit length.
-vec3 environment_along(vec3 normal, vec3 to_eye, float n_v, float alpha) {
-    float kept = 1.0 - alpha * alpha;
-    return environment_direction((2.0 * n_v * kept + (1.0 - kept)) * normal - kept * to_eye);
+vec3 environment_along(vec3 normal, vec3 to_eye, float n_v, float roughness) {
+    float toward = 2.0 * roughness * roughness;
+    return environment_direction((2.0 * n_v + toward * toward) * normal - to_eye);
 }
 #endif
