@@ -256,6 +256,7 @@ vec3 coat_light(surface s, light_sample l, float shine) {
     float n_h = max(dot(s.coat_normal, h) * inversesqrt(dot(h, h)), 0.0001);
     float alpha = max(s.coat_roughness * s.coat_roughness, 0.002);
     float exponent = 2.0 / (alpha * alpha) - 2.0;
+    if (ENVIRONMENT_KEY) shine *= alpha; // as in surface_highlight()
     return l.color * (max(dot(s.coat_normal, l.to_light), 0.0) * shine * pow(n_h, exponent) * (0.125 * exponent + 1.0));
 #else
     return vec3(0.0);
