@@ -64,6 +64,40 @@ static void test_blended_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* Coloured glass: its tint multiplies, then its light is blended, back faces before front faces;
+ * what is behind it is drawn before both. With lights added, each adds to it in its place. */
+static void test_glass_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    struct gn_light lights[13];
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    for (uint32_t i = 0; i < f.scene->material_count; i++) {
+        struct gn_material *m = &f.scene->materials[i];
+        if (strcmp(m->name, "blue") == 0) m->coat = 1.0f;
+        if (m->alpha != GN_ALPHA_BLEND) continue;
+        m->alpha = GN_ALPHA_OPAQUE;
+        m->transmission = 0.9f;
+        m->double_sided = true;
+        glm_vec3_copy((vec3){1, 0.5f, 0.2f}, m->base_color);
+        m->textures[GN_TEXTURE_BASE].texture = -1;
+    }
+    for (uint32_t i = 0; i < f.scene->item_count; i++)
+        if (gn_material_is_blended(&f.scene->materials[f.scene->items[i].material]))
+            f.scene->geometries[f.scene->items[i].geometry].flat = false;
+    gn_plan_expect(gn_plan_make(&f), "glass");
+    gn_plan_add_lights(&f, lights);
+    const struct gn_plan *plan = gn_plan_make(&f);
+    uint32_t tints = 0, added = 0;
+    for (uint32_t i = 0; i < plan->pass_count; i++) {
+        if (plan->passes[i].kind != GN_PASS_PICTURE) continue;
+        tints += plan->passes[i].picture.blend == GN_BLEND_TINT;
+        added += tints > 0 && plan->passes[i].picture.blend == GN_BLEND_ADD;
+    }
+    assert_int_equal(tints % 2, 0);
+    assert_true(tints > 0 && added >= tints);
+    gn_plan_end(&f);
+}
+
 /* With lights of its own: only metal reads the environment, and keeps the hemispheres. */
 static void test_reflections_plan(void **state) {
     (void)state;
@@ -119,6 +153,7 @@ int main(void) {
         cmocka_unit_test(test_tone_of_many_lights_plan),
         cmocka_unit_test(test_a_tone_is_for_pictures_that_are_looked_at),
         cmocka_unit_test(test_blended_plan),
+        cmocka_unit_test(test_glass_plan),
         cmocka_unit_test(test_reflections_plan),
         cmocka_unit_test(test_backdrop_plan),
     };
