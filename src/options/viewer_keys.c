@@ -24,7 +24,7 @@ const struct gn_viewer_key gn_viewer_keys[] = {
     {"e", "environment: studio, none", GN_VIEWER_ENVIRONMENT, "eE", {0}},
     {"a", "next clip of the animation", GN_VIEWER_CLIP, "aA", {0}},
     {"[, -", "half the speed", GN_VIEWER_SLOWER, "[-", {0}},
-    {"], +", "twice the speed", GN_VIEWER_FASTER, "]+", {0}},
+    {"], +", "twice the speed", GN_VIEWER_FASTER, "]+=", {0}},
     {"F12, Print", "write a screenshot here", GN_VIEWER_SCREENSHOT, NULL, {GN_KEY_F12, 99}},
     {"r, F5", "load everything again", GN_VIEWER_RELOAD, "rR", {GN_KEY_F5}},
     {"a dropped file", "is shown in place of the scene", GN_VIEWER_NONE, NULL, {0}},
