@@ -4,20 +4,20 @@ VERSION := 0.1.0
 CONFIG  ?= release
 O       ?= build
 PREFIX  ?= /usr/local
-INTO    := $(DESTDIR)$(PREFIX)
+DATE     = $(shell sed -n 's/^\#\# $(VERSION) - //p' board/CHANGELOG.md)
 $(if $(word 2,$(O)),$(error O= is one folder without a space in its name, not "$(O)"))
 HOSTCC  ?= cc
 SUB      = $(MAKE) --no-print-directory \
            $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc)) READY=1
 Q       := $(if $(V),,@)
 GOALS   := $(or $(MAKECMDGOALS),all)
-BARE    := help clean deps format uninstall # goals that need neither a compiler nor a library
+BARE    := help clean deps format uninstall dist # goals that need neither a compiler nor a library
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-CHECKS := check-angle check-board check-board-arm64 check-gpus check-gpiod2 check-modelviewer check-tangents
-.PHONY: all no-import tests sanitized run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme options-page deps \
+CHECKS := check-angle check-board check-board-arm64 check-deb check-gpus check-gpiod2 check-modelviewer check-tangents
+.PHONY: all no-import tests sanitized completion dist deb run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
 help:
@@ -63,9 +63,12 @@ deps:
 format:
 	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] assets/book/*.[ch] src/import/draco.cc board/*/*.c)
 uninstall:
-	rm -f "$(INTO)/bin/gnomon" "$(INTO)/bin/gnomon-import" "$(INTO)/share/man/man1/gnomon.1" \
-	    "$(INTO)/share/man/man1/gnomon-import.1" "$(INTO)/share/man/man5/gnomon.ini.5"
-	rm -rf "$(INTO)/share/doc/gnomon"
+	@DESTDIR='$(DESTDIR)' PREFIX='$(PREFIX)' sh board/install.sh uninstall
+# the last commit's files, with its time: the same bytes wherever they are packed
+DIST := $(O)/gnomon-$(VERSION).tar.gz
+dist:
+	@mkdir -p $(O)
+	git -c tar.umask=0022 archive --format=tar --prefix=gnomon-$(VERSION)/ HEAD | gzip -9n > $(DIST)
 
 DEPS_run := build run
 DEPS_check := build run test
@@ -76,6 +79,8 @@ DEPS_check-gpus := build run gpus
 DEPS_check-gpiod2 := build run test board
 DEPS_check-modelviewer := build run test
 DEPS_check-tangents := build run test
+DEPS_check-deb := build deb deb-test
+DEPS_deb := build deb
 DEPS_accept := build run test board board-arm64 gpus
 DEPS_full := $(DEPS_accept)
 DEPS_truth := build run test
@@ -86,7 +91,7 @@ DEPS_contact-sheet := build run test
 DEPS_lessons := build run
 DEPS_book := build run test
 DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter run check $(CHECKS) accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme,$(GOALS)))
+BOOT := $(if $(READY),,$(filter deb run check $(CHECKS) accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme,$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh $(DEPS_$@)
@@ -130,7 +135,8 @@ HARDEN   = -fstack-protector-strong -fPIE $(or $(call takes,-D_FORTIFY_SOURCE=3)
              -D_FORTIFY_SOURCE=2) $(or $(call takes,-fcf-protection),\
              $(call takes,-mbranch-protection=standard))
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-CFLAGS_release = -O2 -g -DNDEBUG $(HARDEN)
+# no path of the build in it: two folders give the same bytes
+CFLAGS_release = -O2 -g -DNDEBUG $(HARDEN) -ffile-prefix-map=$(CURDIR)=.
 CFLAGS_debug   = -Og -g
 CFLAGS_asan    = -O1 -g $(SANITIZE)
 CFLAGS_cov     = -O0 -g --coverage
@@ -190,10 +196,13 @@ EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env
 # not out of a library: another one's dlclose would be found first
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 
-all: $(BIN) $(IMPORT) $(SCENES) man
+COMPLETION := $(addprefix $(O)/completion/gnomon.,bash zsh fish)
+
+all: $(BIN) $(IMPORT) $(SCENES) man completion $(O)/gnomon.svg
 tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(O)/host/make_book \
        $(if $(ASSIMP),$(B)/tests/hostile_assimp.so)
 man: $(O)/gnomon.1 $(O)/gnomon.ini.5
+completion: $(COMPLETION)
 
 $(BIN): $(call OBJ,src/main.c) $(KEEP) $(LIB)
 	@echo "link $@"
@@ -274,14 +283,14 @@ MAN_C   := $(addprefix src/,options/buttons.c options/options.c options/settings
            options/action.c options/binding.c options/command.c options/viewer_keys.c cli/help.c core/arena.c core/err.c core/key.c core/text.c \
            frame/caps.c display/kms/modeline.c scene/limits.c core/memory.c shadow/moments.c shadow/technique.c)
 $(O)/host/embed: board/host/embed.c
-$(O)/host/man: board/host/man.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h
-$(O)/host/man: HOST_LIBS = $(shell pkg-config --cflags libdrm)
+$(O)/host/man $(O)/host/completion: $(O)/host/%: board/host/%.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h
+$(O)/host/man $(O)/host/completion: HOST_LIBS = $(shell pkg-config --cflags libdrm)
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
 $(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)
 $(O)/host/make_book: $(wildcard assets/book/*.c assets/book/*.h)
 $(O)/host/make_studio: $(wildcard src/environment/*.c) $(addprefix src/,image/hdr_read.c core/arena.c core/err.c core/hash.c core/text.c) \
     $(wildcard src/environment/*.h)
-$(O)/host/embed $(O)/host/man $(HOST_ASSETS):
+$(O)/host/embed $(O)/host/man $(O)/host/completion $(HOST_ASSETS):
 	@mkdir -p $(@D) && echo "host $@"
 	$(Q)$(HOST)
 assets/sundial.glb: $(O)/host/make_sundial
@@ -301,6 +310,11 @@ $(O)/selftest/%.glb $(O)/selftest/%.truth: $(O)/host/make_selftest
 	$(Q)$< $* $(basename $@)
 $(O)/gnomon.1 $(O)/gnomon.ini.5: $(O)/host/man
 	$(Q)$< $(@F) > $@
+$(COMPLETION): $(O)/host/completion
+	@mkdir -p $(@D)
+	$(Q)$< $(subst .,,$(suffix $@)) > $@
+$(O)/gnomon.svg: board/desktop/icon.sh
+	$(Q)sh $< > $@
 
 # ---- checks --------------------------------------------------------------------------------
 # programs FOLDER,SOURCES; kinds KIND..: the sources of its programs; quick TEST..: those that are not
@@ -451,12 +465,12 @@ compile_commands.json: FORCE
 
 # ---- installation --------------------------------------------------------------------------
 install: all
-	install -D -m 755 $(BIN) "$(INTO)/bin/gnomon"
-	$(if $(IMPORT_C),install -D -m 755 $(IMPORT) "$(INTO)/bin/gnomon-import")
-	install -D -m 644 $(O)/gnomon.1 "$(INTO)/share/man/man1/gnomon.1"
-	install -D -m 644 $(O)/gnomon.ini.5 "$(INTO)/share/man/man5/gnomon.ini.5"
-	$(if $(IMPORT_C),install -D -m 644 board/gnomon-import.1 "$(INTO)/share/man/man1/gnomon-import.1")
-	install -D -m 644 LICENSE "$(INTO)/share/doc/gnomon/LICENSE"
+	@O='$(O)' B='$(B)' IMPORT='$(IMPORT_C)' VERSION='$(VERSION)' DATE='$(DATE)' DESTDIR='$(DESTDIR)' PREFIX='$(PREFIX)' \
+	    sh board/install.sh install
+deb: dist
+	@O='$(O)' VERSION='$(VERSION)' sh board/deb.sh
+check-deb:
+	@O='$(O)' VERSION='$(VERSION)' tests/board/packages.sh
 
 -include $(shell find $(B)/obj -name '*.d' 2> /dev/null)
 endif

@@ -1,7 +1,7 @@
 #!/bin/sh
 # deps.sh SET..: installs the Debian packages of the sets that are missing. Says nothing when none is.
 # build, run, test, board and board-arm64 (virtual machines), gpus (the compilers of those that are not
-# here) are for this machine; cross is what building for CROSS=aarch64-linux-gnu adds.
+# here), deb and deb-test (packages, and what examines them) are for this machine; cross is what building for CROSS=aarch64-linux-gnu adds.
 set -eu
 
 libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
@@ -22,6 +22,9 @@ optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source l
     kmscube kbd libdrm-tests gpiod'
 optional_board_arm64='qemu-system-arm gcc-aarch64-linux-gnu'
 optional_gpus='gcc-aarch64-linux-gnu'
+deb='dpkg-dev debhelper libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libosmesa6-dev git'
+deb_test='lintian desktop-file-utils appstream systemd'
+optional_deb='mmdebstrap' # for roots of another Debian or architecture, and to install in
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find
 
@@ -59,6 +62,8 @@ for set in "$@"; do
     test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-} tmux" ;; # tmux: a terminal that scripts can type in
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
+    deb) wanted="$wanted $deb" extra="$extra $optional_deb" ;;
+    deb-test) wanted="$wanted $deb_test" ;;
     gpus) [ "$own" != amd64 ] || extra="$extra $optional_gpus" ;;
     cross)
         added=$(architecture_of "${CROSS:-}")

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "options/value.h"
@@ -32,10 +33,38 @@ static void rearm_watchdog(void *user, int64_t now_ns) {
     s->timer.due_ns = now_ns + s->every_ns;
 }
 
+/* $JOURNAL_STREAM is inherited by programs whose stderr is something else. */
+static bool is_journal(void) {
+    const char *stream = getenv("JOURNAL_STREAM");
+    struct stat info;
+    char own[64];
+    if (!stream || fstat(STDERR_FILENO, &info) != 0) return false;
+    snprintf(own, sizeof own, "%llu:%llu", (unsigned long long)info.st_dev,
+             (unsigned long long)info.st_ino);
+    return strcmp(own, stream) == 0;
+}
+
+/* One line when it begins to wait, or waits for something else, and one when a picture follows. */
+static void log_screen(struct gn_service *s, const struct gn_screen *screen) {
+    const uint64_t shown = screen->counts.shown;
+    if (!s->logs) return;
+    if (shown < s->waited) s->waited = 0; /* the display was opened again */
+    if (screen->status[0]) {
+        s->waited = shown;
+        if (!s->shows && strcmp(s->waits, screen->status) == 0) return;
+        snprintf(s->waits, sizeof s->waits, "%s", screen->status);
+        s->shows = false;
+        fprintf(stderr, "gnomon: %s\n", screen->status);
+    } else if (!s->shows && shown > s->waited) {
+        s->shows = true;
+        fprintf(stderr, "gnomon: picture on %s\n", screen->what[0] ? screen->what : "the screen");
+    }
+}
+
 bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
                      struct gn_err *err) {
     const char *path = getenv("NOTIFY_SOCKET");
-    *s = (struct gn_service){.socket = -1};
+    *s = (struct gn_service){.socket = -1, .logs = (path && *path) || is_journal()};
     if (!path || !*path) return true;
 
     /* a path, or an abstract name that begins with "@" */
@@ -61,6 +90,7 @@ bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
 bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64_t now_ns) {
     const uint64_t shown = screen->counts.shown;
     const bool sleeps = screen->blank || screen->status[0];
+    log_screen(s, screen);
     if (s->socket < 0) return false;
     if (shown < s->shown) s->shown = 0; /* the display was opened again */
     const char *status = screen->status[0] ? screen->status : screen->what;

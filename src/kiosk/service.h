@@ -3,7 +3,11 @@
  * quarter of $WATCHDOG_USEC, only if a flip has completed since the last one or the screen sleeps:
  * it is switched off, or waits for a card, a monitor or a console. So a flip, GPU or loop that
  * hangs ends with a restart, and a still picture is drawn again in time to feed the watchdog.
- * Without $NOTIFY_SOCKET nothing is done. */
+ * Without $NOTIFY_SOCKET nothing of that is done.
+ *
+ * Where there is a supervisor, or stderr is systemd's journal ($JOURNAL_STREAM), a line on stderr
+ * says what the screen waits for when it begins to wait, and what it shows with the first picture
+ * at the start and after each wait. */
 #ifndef GN_KIOSK_SERVICE_H
 #define GN_KIOSK_SERVICE_H
 
@@ -23,6 +27,10 @@ struct gn_service {
     uint64_t shown; /* completed flips when it was fed last */
     bool ready;
     char status[160]; /* sent last */
+    bool logs;        /* lines on stderr */
+    bool shows;       /* the last line was about a picture */
+    char waits[160];  /* the last line otherwise */
+    uint64_t waited;  /* completed flips then */
     struct sockaddr_un to;
     socklen_t to_length;
 };

@@ -1,7 +1,7 @@
 /* The table of lessons, in the order in which they teach: LESSON(fields of struct gn_lesson), with
  * FAULT(figure, step, settings), what it shows and by what, and CURE(step, settings) of all faults.
  * A row, and where there is none yet a scene in assets/make_lessons.c, make a lesson. Included
- * once, by lesson.c. */
+ * by lesson.c, and for their names by board/host/completion.c. */
 /* clang-format off */
 
 /* why shadows matter */

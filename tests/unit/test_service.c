@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -183,6 +184,74 @@ static void test_without_a_supervisor(void **state) {
     assert_string_equal(hear(), "");
 }
 
+/* What a step writes on stderr, which is a file of our own meanwhile. */
+static const char *step_log(struct gn_service *service, const struct gn_screen *screen) {
+    static char text[400];
+    FILE *file = tmpfile();
+    const int own = dup(STDERR_FILENO);
+    dup2(fileno(file), STDERR_FILENO);
+    gn_service_step(service, screen, 100 * S);
+    dup2(own, STDERR_FILENO);
+    close(own);
+    rewind(file);
+    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    fclose(file);
+    return text;
+}
+
+static void test_logs_when_it_waits_and_when_a_picture_comes(void **state) {
+    (void)state;
+    struct gn_service service;
+    struct gn_screen screen = {.status = "waiting for a monitor"};
+    setenv("NOTIFY_SOCKET", path, 1);
+    open_it(&service);
+    assert_string_equal(step_log(&service, &screen), "gnomon: waiting for a monitor\n");
+    assert_string_equal(step_log(&service, &screen), "");
+    snprintf(screen.what, sizeof screen.what, "HDMI-A-1 1920x1080@60.00 atomic");
+    screen.status[0] = 0; /* there, but nothing is shown yet */
+    assert_string_equal(step_log(&service, &screen), "");
+    screen.counts.shown = 1;
+    assert_string_equal(step_log(&service, &screen),
+                        "gnomon: picture on HDMI-A-1 1920x1080@60.00 atomic\n");
+    screen.counts.shown = 1000;
+    assert_string_equal(step_log(&service, &screen), "");
+    snprintf(screen.status, sizeof screen.status, "another console is active");
+    assert_string_equal(step_log(&service, &screen), "gnomon: another console is active\n");
+    snprintf(screen.status, sizeof screen.status, "waiting for a card");
+    screen.counts.shown = 0; /* and it is opened again */
+    assert_string_equal(step_log(&service, &screen), "gnomon: waiting for a card\n");
+    screen.status[0] = 0;
+    assert_string_equal(step_log(&service, &screen), "");
+    screen.counts.shown = 1;
+    assert_string_equal(step_log(&service, &screen),
+                        "gnomon: picture on HDMI-A-1 1920x1080@60.00 atomic\n");
+    gn_service_close(&service);
+}
+
+static void test_logs_into_the_journal_alone(void **state) {
+    (void)state;
+    struct gn_service service;
+    const struct gn_screen screen = {.status = "waiting for a monitor"};
+    struct stat info;
+    char stream[64];
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("JOURNAL_STREAM");
+    open_it(&service);
+    assert_string_equal(step_log(&service, &screen), ""); /* a terminal, or a file */
+    fstat(STDERR_FILENO, &info);
+    snprintf(stream, sizeof stream, "%llu:%llu", (unsigned long long)info.st_dev,
+             (unsigned long long)info.st_ino + 1); /* another stderr is the journal */
+    setenv("JOURNAL_STREAM", stream, 1);
+    open_it(&service);
+    assert_string_equal(step_log(&service, &screen), "");
+    snprintf(stream, sizeof stream, "%llu:%llu", (unsigned long long)info.st_dev,
+             (unsigned long long)info.st_ino);
+    setenv("JOURNAL_STREAM", stream, 1);
+    open_it(&service);
+    assert_string_equal(step_log(&service, &screen), "gnomon: waiting for a monitor\n");
+    unsetenv("JOURNAL_STREAM");
+}
+
 static void test_addresses_that_are_none(void **state) {
     (void)state;
     struct gn_service service;
@@ -274,6 +343,9 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_the_loop_wakes_up_for_the_watchdog, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_without_a_watchdog, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_without_a_supervisor, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_logs_when_it_waits_and_when_a_picture_comes, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_logs_into_the_journal_alone, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_addresses_that_are_none, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_a_still_picture_keeps_the_watchdog_quiet, set_up,
                                         tear_down),

@@ -1,0 +1,67 @@
+#!/bin/sh
+# install.sh install|uninstall|list: the files of `make install`, below DESTDIR and PREFIX; a folder
+# that uninstall leaves empty goes, too. It takes from the environment O, B (the folders of the build),
+# IMPORT (empty: there is no gnomon-import), VERSION and DATE.
+set -eu
+: "${PREFIX:=/usr/local}" "${DESTDIR:=}" "${O:=build}" "${B:=$O/release}" "${IMPORT:=}"
+system=lib/systemd share=share
+
+# MODE TARGET SOURCE..: sources are joined; @PREFIX@, @VERSION@ and @DATE@ in *.in are filled in
+files() {
+    cat << END
+755 bin/gnomon $B/gnomon
+644 $share/man/man1/gnomon.1 $O/gnomon.1
+644 $share/man/man5/gnomon.ini.5 $O/gnomon.ini.5
+644 $share/bash-completion/completions/gnomon $O/completion/gnomon.bash
+644 $share/zsh/site-functions/_gnomon $O/completion/gnomon.zsh
+644 $share/fish/vendor_completions.d/gnomon.fish $O/completion/gnomon.fish
+644 $share/applications/gnomon.desktop board/desktop/gnomon.desktop
+644 $share/metainfo/gnomon.metainfo.xml board/desktop/gnomon.metainfo.xml.in
+644 $share/icons/hicolor/scalable/apps/gnomon.svg $O/gnomon.svg
+644 $share/gnomon/kiosk.ini board/systemd/kiosk.ini
+644 $share/doc/gnomon/LICENSE LICENSE
+644 $share/doc/gnomon/CHANGELOG.md board/CHANGELOG.md
+644 $system/system/gnomon.service board/systemd/gnomon.service.in board/systemd/common.in
+644 $system/system/gnomon@.service board/systemd/gnomon@.service.in board/systemd/common.in
+644 lib/sysusers.d/gnomon.conf board/systemd/sysusers.conf
+644 lib/tmpfiles.d/gnomon.conf board/systemd/tmpfiles.conf.in
+644 lib/udev/rules.d/60-gnomon.rules board/systemd/udev.rules
+END
+    [ -z "$IMPORT" ] || cat << END
+755 bin/gnomon-import $B/gnomon-import
+644 $share/man/man1/gnomon-import.1 board/gnomon-import.1
+END
+}
+
+install_one() {
+    mode=$1 to=$DESTDIR$PREFIX/$2 && shift 2
+    case $1 in
+    *.in)
+        mkdir -p "$(dirname "$to")" && rm -f "$to"
+        cat "$@" | sed "s,@PREFIX@,$PREFIX,g; s,@VERSION@,$VERSION,g; s,@DATE@,$DATE,g" > "$to"
+        chmod "$mode" "$to"
+        ;;
+    *) install -D -m "$mode" "$1" "$to" ;;
+    esac
+}
+
+case ${1:-} in
+install)
+    umask 022
+    files | while read -r mode target sources; do
+        # shellcheck disable=SC2086
+        install_one "$mode" "$target" $sources || exit 1
+    done
+    ;;
+uninstall)
+    IMPORT=yes
+    files | while read -r mode target sources; do
+        rm -f "$DESTDIR$PREFIX/$target"
+    done
+    for folder in share/doc/gnomon share/gnomon; do
+        rmdir "$DESTDIR$PREFIX/$folder" 2> /dev/null || true
+    done
+    ;;
+list) files | cut -d ' ' -f 2 ;;
+*) echo 'usage: install.sh install|uninstall|list' >&2 && exit 2 ;;
+esac

@@ -1,0 +1,94 @@
+#!/bin/bash
+# The Debian packages of the last commit (make check-deb): built twice, in different folders, time zones,
+# languages and umasks, they are equal byte for byte; lintian, systemd, AppStream and the desktop have
+# nothing against them; they are installed in a root of their own, where the commands of autopkgtest
+# pass, and purged, after which nothing of theirs is left. As SUITE and ARCH say, like make deb; of
+# another suite or architecture they are not installed. INSTALL_ONLY=1: with the packages that are there.
+set -eu
+: "${O:=build}" "${VERSION:?}"
+# shellcheck disable=SC1091
+codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+own=$(dpkg --print-architecture)
+suite=${SUITE:-$codename} arch=${ARCH:-$own}
+first=$O/deb/$suite
+work=$(mktemp -d)
+root=$work/installed
+leave() {
+    if mountpoint -q "$root/proc"; then umount "$root/proc"; fi
+    rm -rf --one-file-system "$work"
+}
+trap leave EXIT
+bad=0
+
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+
+# ---- twice the same --------------------------------------------------------------------------------
+if [ -z "${INSTALL_ONLY:-}" ]; then
+    sh board/deb.sh > /dev/null
+    mkdir -p "$work/another folder" "$work/out"
+    cp "$O/gnomon-$VERSION.tar.gz" "$work/out"
+    cp -r board "$work/another folder"
+    (cd "$work/another folder" && umask 077 && TZ=Asia/Kolkata LC_ALL=C.UTF-8 O=$work/out sh board/deb.sh > /dev/null)
+    for file in "$first"/*.deb "$first"/*.dsc "$first"/*.tar.*; do
+        cmp "$file" "$work/out/deb/$suite/${file##*/}" || complain "${file##*/} differs when built elsewhere"
+    done
+    rm -rf "$work/out"
+fi
+ls -l "$first"/*.deb | awk '{ print $5, $9 }'
+
+# ---- what tools say --------------------------------------------------------------------------------
+# lintian knows the rules of this machine's suite
+if [ "$suite" = "$codename" ]; then
+    lintian --allow-root --fail-on error,warning "$first"/gnomon_"$VERSION"*.changes || complain lintian
+fi
+for package in "$first"/gnomon_*.deb "$first"/gnomon-import_*.deb; do dpkg-deb -x "$package" "$work/root"; done
+desktop-file-validate "$work/root/usr/share/applications/gnomon.desktop" || complain 'the desktop entry'
+# the name has no domain in it: the project has none
+appstreamcli validate --no-net --override=cid-desktopapp-is-not-rdns=info \
+    "$work/root/usr/share/metainfo/gnomon.metainfo.xml" || complain 'AppStream'
+mkdir "$work/units"
+find "$work/root" -name 'gnomon*.service' | while read -r unit; do
+    name=${unit##*/}
+    sed 's,/usr/bin/gnomon,/bin/true,' "$unit" > "$work/units/${name/@/@left}"
+done
+for unit in "$work"/units/*; do
+    systemd-analyze verify --man=no "$unit" 2>&1 | grep -F "${unit##*/}" && complain "${unit##*/}"
+done
+systemd-analyze security --offline=yes --threshold=10 "$work/units/gnomon.service" | tail -n 1 ||
+    complain 'the sandbox is wider than 1.0 of systemd-analyze security'
+# each key that the sample has behind a semicolon is one
+sed 's/^;\(\[\|[a-z_]* =\)/\1/; s,/srv/scene.glb,scene.glb,' board/systemd/kiosk.ini > "$work/kiosk.ini"
+cp assets/sundial.glb "$work/scene.glb"
+
+# ---- installed, used, purged -----------------------------------------------------------------------
+if [ "$(id -u)" != 0 ] || ! command -v mmdebstrap > /dev/null; then
+    echo 'not installed anywhere: needs mmdebstrap, and root'
+elif [ "$suite-$arch" = "$codename-$own" ]; then
+    mmdebstrap --mode=root --variant=apt --quiet "$suite" "$root" /etc/apt/sources.list.d/debian.sources 2> "$work/log" ||
+        mmdebstrap --mode=root --variant=apt --quiet "$suite" "$root" 2> "$work/log" || { cat "$work/log" && exit 1; }
+    mount -t proc proc "$root/proc" # systemd-tmpfiles does nothing without it
+    cp "$first"/gnomon_*_"$arch".deb "$first"/gnomon-import_*_"$arch".deb "$work/kiosk.ini" "$work/scene.glb" "$root/root"
+    cp -r board/debian/tests "$root/root/tests"
+    inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
+    inside sh -c 'apt-get -q -y install /root/gnomon_*.deb /root/gnomon-import_*.deb' > "$work/log" 2>&1 ||
+        { tail -n 20 "$work/log" && exit 1; }
+    for test in $(sed -n 's/^Tests: //p' board/debian/tests/control | tr -d ,); do
+        inside env AUTOPKGTEST_TMP=/tmp "/root/tests/$test" > "$work/log" 2>&1 ||
+            { cat "$work/log" && complain "autopkgtest: $test"; }
+    done
+    inside gnomon show --check /root/kiosk.ini > "$work/log" 2>&1 ||
+        { cat "$work/log" && complain 'the sample with all its keys'; }
+    echo '; mine' >> "$root/etc/gnomon/kiosk.ini"
+    inside sh -c 'apt-get -q -y install --reinstall /root/gnomon_*.deb' > "$work/log" 2>&1 || complain 'an upgrade'
+    grep -q '^; mine' "$root/etc/gnomon/kiosk.ini" || complain 'an upgrade changes kiosk.ini'
+    inside apt-get -q -y purge gnomon gnomon-import > "$work/log" 2>&1 || { cat "$work/log" && complain purge; }
+    rm -rf "$root/root"
+    find "$root" -xdev -path "$root/proc" -prune -o -path "$root/var/cache/apt" -prune -o -name '*gnomon*' -print > "$work/left"
+    grep -l gnomon "$root"/etc/passwd "$root"/etc/group >> "$work/left" || true
+    [ ! -s "$work/left" ] || complain "left after purge: $(cat "$work/left")"
+fi
+[ "$bad" != 0 ] || echo 'packages: all as it should be'
+exit "$bad"
