@@ -42,6 +42,11 @@ export function chart(names) {
         meshes.push({ primitives: [{ attributes: { POSITION: 0, NORMAL: 0 }, indices: 1, material: materials.length - 1 }] });
         nodes.push({ mesh: meshes.length - 1, translation: [step * x, -step * y, 0] });
     }));
+    if (names.includes('backdrop')) { // behind what is transparent: a flat grey sphere
+        materials.push({ name: 'backdrop', pbrMetallicRoughness: { baseColorFactor: [0.3, 0.3, 0.3, 1], metallicFactor: 0 } });
+        meshes.push({ primitives: [{ attributes: { POSITION: 0, NORMAL: 0 }, indices: 1, material: materials.length - 1 }] });
+        nodes.push({ mesh: meshes.length - 1, translation: [2 * step, 0, -2], scale: [8, 4, 0.02] });
+    }
     const json = {
         asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: nodes.map((_, i) => i) }], nodes, meshes, materials,
         ...(extensions.size && { extensionsUsed: [...extensions] }),
