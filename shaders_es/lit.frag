@@ -171,14 +171,13 @@ float surface_cosine(surface s, light_sample l) {
 vec3 surface_irradiance(surface s) {
 #ifdef WITH_LIGHTMAP_TEXTURE
     return texture(u_texture_lightmap, v_uv_lightmap).rgb * (u_factors[0].w * u_pass[PASS_EXPOSURE].x);
-#elif defined WITH_IRRADIANCE && defined WITH_DOUBLE_SIDED
-    return v_irradiance + (gl_FrontFacing ? v_irradiance_odd : -v_irradiance_odd);
 #elif defined WITH_IRRADIANCE
-    return v_irradiance;
-#elif defined WITH_ENVIRONMENT_DIFFUSE
-    vec3 even, odd;
-    environment_diffuse(s.normal, even, odd);
-    return even + odd;
+    vec3 irradiance = v_irradiance;
+#ifdef WITH_DOUBLE_SIDED
+    irradiance += gl_FrontFacing ? v_irradiance_odd : -v_irradiance_odd;
+#endif
+    if (NORMAL_TEXTURE) irradiance = max(irradiance + environment_slope(s.normal - s.smooth_normal), 0.0);
+    return irradiance;
 #else
     vec3 ambient = PASS(PASS_SKY).rgb;
     if (HEMISPHERE) ambient = mix(PASS(PASS_GROUND).rgb, ambient, 0.5 * s.normal.y + 0.5);

@@ -1,7 +1,7 @@
 // Light from all directions: src/environment/. With ENVIRONMENT_SCALED PASS_SKY.w is the factor on its radiance, else that is 1.
 
-// A vertex is enough for diffuse light, which changes little from one normal to the next; not with a normal map.
-#if defined WITH_ENVIRONMENT_DIFFUSE && !defined WITH_NORMAL_TEXTURE
+// A vertex is enough for diffuse light, which changes little from one normal to the next. A normal map adds environment_slope().
+#ifdef WITH_ENVIRONMENT_DIFFUSE
 #define WITH_IRRADIANCE 1
 #endif
 
@@ -24,6 +24,12 @@ void environment_diffuse(vec3 n, out vec3 even, out vec3 odd) {
            HARMONIC(7) * (n.x * n.z) + HARMONIC(8) * (n.x * n.x - n.y * n.y);
     even = max(even, 0.0);
     odd = clamp(odd, -even, even); // no light is negative on either side
+}
+
+// What diffuse light gains where the normal differs by that much: the linear harmonics alone, a third of the instructions.
+vec3 environment_slope(vec3 by) {
+    by = environment_direction(by);
+    return HARMONIC(1) * by.y + HARMONIC(2) * by.z + HARMONIC(3) * by.x;
 }
 
 #if defined WITH_ENVIRONMENT || defined WITH_COAT || defined WITH_TRANSMISSION
