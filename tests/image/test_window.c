@@ -279,7 +279,7 @@ static void test_a_still_picture_is_drawn_once(void **state) {
     int drawn = 0;
     assert_int_equal(sscanf(last, " fps, %d drawn", &drawn), 1);
     printf("%d frames drawn and %d ms of CPU time in %d s\n", drawn, (int)spent_ms, seconds);
-    assert_in_range(drawn, 1, 5); /* the first, and what the window_server asked for */
+    assert_in_range(drawn, 1, 5); /* the first, and what the server asked for */
     assert_true(spent_ms <= seconds * 10);
 }
 
@@ -300,9 +300,9 @@ static void test_without_a_desktop_there_is_one_line(void **state) {
     const char *args[] = {"show", "--backend", "window", NULL};
     char *name = strdup(getenv("DISPLAY"));
     setenv("DISPLAY", ":no-such-display", 1);
-    assert_says(args, 1, "no display window_server found");
+    assert_says(args, 1, "no display server found");
     unsetenv("DISPLAY");
-    assert_says(args, 1, "no display window_server found");
+    assert_says(args, 1, "no display server found");
     setenv("DISPLAY", name, 1);
     free(name);
 }
@@ -318,7 +318,7 @@ static void test_bare_gnomon_opens_a_window(void **state) {
     window_assert_ends_well(&s);
 }
 
-/* The last one: there is no window_server after it. */
+/* The last one: there is no server after it. */
 static void test_a_server_that_ends_is_a_display_given_up(void **state) {
     (void)state;
     struct window_shown s;
@@ -329,10 +329,11 @@ static void test_a_server_that_ends_is_a_display_given_up(void **state) {
     assert_int_equal(window_end_of(&s), GN_EXIT_DISPLAY);
     window_read_said(&s, said, sizeof said);
     unlink(s.said);
-    assert_string_equal(said, "gnomon: the X window_server has ended\n");
+    assert_string_equal(said, "gnomon: the X server has ended\n");
 }
 
-int main(void) {
+/* An argument is a pattern of tests. */
+int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_a_window_shows_what_render_draws, window_clear_up),
         cmocka_unit_test_teardown(test_without_srgb_shaders_encode, window_clear_up),
@@ -352,6 +353,7 @@ int main(void) {
         cmocka_unit_test_teardown(test_bare_gnomon_opens_a_window, window_clear_up),
         cmocka_unit_test_teardown(test_a_server_that_ends_is_a_display_given_up, window_clear_up),
     };
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
     setenv("XDG_CONFIG_HOME", "/nonexistent", 1);
     window_server = gn_xserver_start();
     const int failures = cmocka_run_group_tests(tests, NULL, NULL);
