@@ -40,14 +40,20 @@ static const char *const materials[] = {
     "{'transmissionFactor':1,'transmissionTexture':{'index':0}},'KHR_materials_clearcoat':"
     "{'clearcoatFactor':1,'clearcoatTexture':{'index':0},'clearcoatRoughnessTexture':{'index':0}}}"
     "}",
+    "{'name':'worn','pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
+    "'metallicRoughnessTexture':{'index':0}}}",
+    "{'name':'engraved','normalTexture':{'index':0},'pbrMetallicRoughness':{'baseColorTexture':"
+    "{'index':0},'metallicRoughnessTexture':{'index':0}}}",
 };
 enum {
     ALL = 5,
     GLASS = 8,
     SIGN = 9,
     PAINT = 11,
-    MATERIAL_COUNT = sizeof materials / sizeof *materials
+    LOOKS = 14,
+    MATERIAL_COUNT = LOOKS + 2,
 };
+_Static_assert(MATERIAL_COUNT == sizeof materials / sizeof *materials, "materials");
 
 static void add_texture(struct gn_maker *m) {
     static const uint8_t pixels[16] = {255, 255, 255, 255, 90,  90,  90,  255,
@@ -126,6 +132,7 @@ static void add_lights(struct gn_maker *m, enum gn_gpu_scene scene) {
     switch (scene) {
     case GN_GPU_SUN:
     case GN_GPU_FEW_MATERIALS:
+    case GN_GPU_LOOK:
     case GN_GPU_MATERIALS: add_lamp(m, lights, GN_LIGHT_DIRECTIONAL, NULL, false, 0); break;
     case GN_GPU_POINT: add_lamp(m, lights, GN_LIGHT_POINT, NULL, false, 0); break;
     case GN_GPU_SPOT: add_lamp(m, lights, GN_LIGHT_SPOT, NULL, false, 0); break;
@@ -165,11 +172,14 @@ struct gn_scene *gn_gpu_scene_make(enum gn_gpu_scene scene) {
     add_texture(&m);
     for (int i = 0; i < MATERIAL_COUNT; i++) gn_maker_add(&m, "materials", materials[i]);
     const struct square square = add_square(&m);
-    add_card(&m, square.plain, 0, 0, 0, 60);
+    const bool look = scene == GN_GPU_LOOK; /* a ground would be its floor */
+    if (!look) add_card(&m, square.plain, 0, 0, 0, 60);
     /* a row of them, longer than what an eye sees that is near: the sun's map goes with it */
-    for (int i = -5; i <= 5; i++) add_card(&m, square.plain, 0, 3.3f * (float)i, 1, 1);
+    for (int i = -5; i <= 5 && !look; i++) add_card(&m, square.plain, 0, 3.3f * (float)i, 1, 1);
     for (int i = 1; i < MATERIAL_COUNT; i++) {
         const float x = (float)i - 5, y = 0.5f + 0.1f * (float)i;
+        if (look && i >= LOOKS) add_card(&m, square.plain, i, x, y, 0.5f);
+        if (i >= LOOKS) continue;
         const bool few = scene == GN_GPU_FEW_MATERIALS, all = scene == GN_GPU_MATERIALS;
         if (all || (few && (i == GLASS || i == SIGN || i >= PAINT)))
             add_card(&m, square.plain, i, x, y, 0.5f);

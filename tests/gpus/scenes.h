@@ -13,7 +13,9 @@ enum gn_gpu_scene {
     GN_GPU_FEW_MATERIALS, /* cards that between them have every feature of a material; a sun */
     GN_GPU_MATERIALS,     /* a card of every kind of material; a sun */
     GN_GPU_LAMPS,         /* a sun, a spot and a point light */
-    GN_GPU_CROWD,         /* ten lights, so that some come in passes that add */
+    GN_GPU_LOOK,  /* metal and roughness in a texture, also with a normal map, on an unseen floor; a
+                     sun */
+    GN_GPU_CROWD, /* ten lights, so that some come in passes that add */
     GN_GPU_SCENE_COUNT,
 };
 /* Never NULL: a scene that does not load is a mistake of ours, and ends the program. */

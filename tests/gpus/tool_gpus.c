@@ -22,7 +22,7 @@
 #include "gpus/scenes.h"
 
 struct bench {
-    bool full;
+    bool full, looks, only_looks;
     int turn;
     const char *known; /* file, or NULL */
     struct gn_display display;
@@ -425,12 +425,35 @@ static void try_pictures(struct bench *b) {
     try_materials(b, GN_GPU_CROWD, GN_TECHNIQUE_PCF);
 }
 
+/* A model as it is shown by itself: the studio and its tone, on the unseen floor; with lights of
+ * its own, which metal reflects it beside; and with the studio as the background. */
+static void try_looks(struct bench *b) {
+    static const struct gn_environment environment;
+    static const enum gn_technique techniques[] = {GN_TECHNIQUE_PCF, GN_TECHNIQUE_CONE};
+    struct stage s;
+    stage_open(b, &s, GN_GPU_LOOK);
+    for (int i = 0; i < 2; i++)
+        for (int reflected_only = 0; reflected_only < 2; reflected_only++) {
+            struct gn_frame_opts opts = opts_of(techniques[i], GN_ENCODING_AUTO);
+            opts.shadow.cascades = 1; /* a model's light has no more */
+            opts.tone = reflected_only ? GN_TONE_NONE : GN_TONE_NEUTRAL;
+            opts.environment = (struct gn_frame_environment_opts){
+                .of = &environment,
+                .id = 2,
+                .reflected_only = reflected_only,
+                .show = reflected_only ? GN_ENVIRONMENT_SHOW_NO : GN_ENVIRONMENT_SHOW_BLUR,
+                .strength = 1};
+            draw(b, &s, &opts, EVERYTHING, "a look");
+        }
+    stage_close(&s);
+}
+
 /* ---- all of it ----------------------------------------------------------------------------- */
 
 /* That nothing was left out without anybody noticing. */
 static void check_cover(struct bench *b) {
     for (uint32_t kind = 0; kind < GN_PROGRAM_KIND_COUNT; kind++)
-        if (!(b->kinds >> kind & 1)) {
+        if (!(b->kinds >> kind & 1) && (kind != GN_PROGRAM_BACKDROP || b->looks)) {
             char name[200];
             gn_gl_key_text(&(struct gn_program_key){.kind = (uint8_t)kind}, name, sizeof name);
             fail(b, name, "no plan had a program of this kind");
@@ -469,6 +492,10 @@ static const char *read_arguments(struct bench *b, int argc, char **argv) {
         const bool more = i + 1 < argc;
         if (strcmp(argv[i], "--full") == 0)
             b->full = true;
+        else if (strcmp(argv[i], "--looks") == 0)
+            b->looks = true;
+        else if (strcmp(argv[i], "--only-looks") == 0) /* for who works on them */
+            b->looks = b->only_looks = true;
         else if (more && strcmp(argv[i], "--known") == 0)
             b->known = argv[++i];
         else if (more && strcmp(argv[i], "--turn") == 0)
@@ -484,13 +511,16 @@ int main(int argc, char **argv) {
     const char *shaders = read_arguments(&b, argc, argv);
     setvbuf(stdout, NULL, _IOLBF, 0);
     if (!open_bench(&b, shaders)) return 2;
-    for (int which = GN_GPU_SUN; which <= GN_GPU_SPOT; which++) {
+    if (b.looks) try_looks(&b);
+    for (int which = GN_GPU_SUN; which <= GN_GPU_SPOT && !b.only_looks; which++) {
         try_techniques(&b, (enum gn_gpu_scene)which);
         try_maps(&b, (enum gn_gpu_scene)which);
     }
-    try_slides(&b);
-    try_pictures(&b);
-    check_cover(&b);
+    if (!b.only_looks) {
+        try_slides(&b);
+        try_pictures(&b);
+        check_cover(&b);
+    }
     printf("DONE\t%u programs, %u of them compiled, %u plans, %u framebuffers, %u incomplete, %u "
            "errors, %u failures\n",
            b.seen_count, b.compiled, b.plans, b.framebuffers, b.incomplete, b.listener.errors,
