@@ -12,8 +12,8 @@ layout(location = 0) out vec4 o_color;
 void main() {
     vec4 drawn = texelFetch(u_map_0, ivec2(gl_FragCoord.xy), 0);
     vec3 color = drawn.rgb;
-#if defined(WITH_TRANSPARENT) && !defined(WITH_TONE)
-    drawn.a = max(drawn.a, min(max(max(color.r, color.g), color.b), 1.0)); // reflections on clear glass: no straight colour is over 1
+#ifdef WITH_TRANSMISSION
+    drawn.a = max(drawn.a, min(max(max(color.r, color.g), color.b), 1.0)); // bright reflections on glass: no straight colour is over 1
 #endif
 #if defined(WITH_TONE) || defined(WITH_TRANSPARENT)
     color = min(color / max(drawn.a, 0.0001), 60000.0); // infinite half floats

@@ -41,7 +41,8 @@
     X(ENVIRONMENT_SCALED, "environment-scaled")   /* by a factor other than 1 */                   \
     X(ENVIRONMENT_TURNED, "environment-turned")                                                    \
     X(COAT, "coat")                 /* a clear coat over the rest */                               \
-    X(TRANSMISSION, "transmission") /* shows what is behind. LIT with UNLIT: its tint alone */     \
+    X(TRANSMISSION, "transmission") /* shows what is behind. LIT with UNLIT: its tint alone;       \
+                                       ENCODE: there is such */                                    \
     X(TINTED, "tinted") /* LIT: in colour, which a draw before has multiplied in; this one adds */ \
     X(ENVIRONMENT_KEY, "environment-key") /* smooth surfaces reflect it with its key light */      \
     X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */

@@ -190,6 +190,12 @@ void gn_frame_add_blended(struct gn_frame *frame, const struct gn_pose *pose,
         }
 }
 
+static bool draws_glass(const struct gn_frame *frame) {
+    for (uint32_t i = 0; i < frame->programs.count; i++)
+        if (frame->programs.at[i].features & GN_FEATURE(TRANSMISSION)) return true;
+    return false;
+}
+
 /* Makes a picture of bytes of the linear one: encodes it where no target of the GPU does, maps its
  * tone. */
 void gn_frame_add_encode(struct gn_frame *frame, const struct gn_pose *pose,
@@ -201,6 +207,8 @@ void gn_frame_add_encode(struct gn_frame *frame, const struct gn_pose *pose,
     key.kind = GN_PROGRAM_ENCODE;
     if (frame->plan.tones_sum) key.features |= gn_frame_tone_feature(frame);
     if (frame->plan.transparent) key.features |= GN_FEATURE(TRANSPARENT);
+    if (frame->plan.transparent && !frame->plan.tones_sum && draws_glass(frame))
+        key.features |= GN_FEATURE(TRANSMISSION);
     if (frame->plan.encode_srgb) key.features |= GN_FEATURE(ENCODE_SRGB);
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_ENCODE);
     background_of(frame, opts, c[ENCODE_BACKGROUND]);
