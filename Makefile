@@ -124,7 +124,7 @@ has      = $(shell $(PKG) --exists $(1) 2> /dev/null && echo y)
 CXX     := $(if $(filter default undefined,$(origin CXX)),$(if $(CROSS),$(CROSS)-)$(if $(findstring clang,$(CC)),clang++,g++),$(CXX)) \
            $(if $(SYSROOT),--sysroot=$(SYSROOT))
 ASSIMP  := $(call has,assimp)
-DRACO   := $(if $(shell echo '\#include <draco/compression/decode.h>' | $(CXX) -std=c++17 -E -x c++ - > /dev/null 2>&1 && echo y),-ldraco -lstdc++)
+DRACO   := $(if $(shell $(CXX) -std=c++17 -E -include draco/compression/decode.h -x c++ /dev/null > /dev/null 2>&1 && echo y),-ldraco -lstdc++)
 OF_ASSIMP := $(addprefix src/import/,folder_io.c light.c material.c matrix.c mesh.c mtl.c normals.c obj.c picture.c ply.c scene.c texture.c)
 IMPORT_C := $(if $(ASSIMP)$(DRACO),$(filter-out src/import/$(if $(ASSIMP),scene_none.c) $(if $(ASSIMP),,$(OF_ASSIMP)) \
              $(if $(DRACO),src/import/draco_none.c),$(sort $(wildcard src/import/*.c))))
@@ -172,7 +172,7 @@ GPIO_LIBS := $(if $(filter 1 2,$(GPIOD)),$(shell $(PKG) --libs libgpiod))
 # gnomon-import alone filters its system calls, and a test
 SECCOMP_LIBS := $(shell $(PKG) --libs libseccomp 2> /dev/null)
 # meshes compressed by meshoptimizer; its Debian packages have no .pc
-MESHOPT := $(shell echo '\#include <meshoptimizer.h>' | $(CC) -E -x c - > /dev/null 2>&1 && echo -lmeshoptimizer)
+MESHOPT := $(shell $(CC) -E -include meshoptimizer.h -x c /dev/null > /dev/null 2>&1 && echo -lmeshoptimizer)
 LIBS    += $(MESHOPT)
 unused  := $(without) src/scene/gltf/$(if $(MESHOPT),meshopt_none.c,meshopt.c) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
