@@ -1,4 +1,5 @@
 // Vertices of casters: clip position, and the inputs of the alpha test. Shared by depth.vert, distance.vert and flat.vert.
+#define POSITION_ONLY 1
 #include "lib/pass.glsl"
 #include "lib/vertex.glsl"
 

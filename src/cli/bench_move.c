@@ -57,7 +57,7 @@ static void move_light(const struct gn_bench_move *move, struct gn_pose *pose, u
 static void move_item(const struct gn_bench_move *move, struct gn_pose *pose, uint32_t item,
                       float angle_rad) {
     struct gn_pose_item *out = &pose->items[item];
-    if (!pose->node_moves[pose->scene->items[item].node]) {
+    if (!out->moves) {
         glm_mat4_copy(move->items[item], out->world_from_item);
         out->box_ws = move->boxes[item];
     }
@@ -78,7 +78,8 @@ void gn_bench_move_step(const struct gn_bench_move *move, struct gn_pose *pose, 
         move_light(move, pose, i, angle_rad);
     if (!move->casters) return;
     for (uint32_t i = 0; i < scene->item_count; i++)
-        if (scene->items[i].casts && !scene->items[i].plane && pose->items[i].visible)
+        if (scene->items[i].casts && !scene->items[i].plane && pose->items[i].visible &&
+            !gn_item_is_deformed(&scene->items[i]))
             move_item(move, pose, i, angle_rad);
     if (!pose->animated) pose->box_ws = move->box_ws;
     const float pad_m = CASTER_SHARE * size_m(pose);

@@ -41,7 +41,8 @@ void gn_inspect_advise(struct gn_inspection *in);
 void gn_inspect_print(const struct gn_inspection *in, FILE *to);
 /* One object:
  * file, name, size_m [x, y, z],
- * counts {nodes, items, instances, batches, geometries, vertices, triangles, textures},
+ * counts {nodes, items, instances, batches, geometries, vertices, triangles, textures, skins,
+ *     joints, targets} (targets: of all nodes),
  * materials {count, opaque, mask, blend, unlit, double_sided} (glTF's default one counts),
  * images [{width_px, height_px, alpha, bytes}],
  * lights [{name, type, intensity, unit, color, range_m|null, inner_deg|null, outer_deg|null,

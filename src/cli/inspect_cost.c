@@ -43,5 +43,6 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
     in->cost.index_bytes = gn_scene_index_bytes(scene);
     for (uint32_t i = 0; i < scene->pictures.image_count; i++)
         in->cost.texture_bytes += gn_scene_image_bytes(&scene->pictures.images[i]);
+    in->cost.texture_bytes += gn_scene_deformation_bytes(scene);
     gn_inspect_advise(in);
 }

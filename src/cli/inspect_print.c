@@ -127,6 +127,10 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
                s->batch_count, s->instance_count);
     print_line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
                s->geometry_count, s->buffers.vertex_count, (unsigned long long)s->triangle_count);
+    if (s->deformation.width > 0)
+        print_line(to, "%-11s %u skins, %u joints, %u morph targets, %.2f MB of deltas", "posed",
+                   s->deformation.skin_count, s->deformation.joint_count,
+                   s->deformation.weight_count, GN_MB(gn_scene_deformation_bytes(s)));
     print_line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
                s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
                k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
@@ -207,13 +211,16 @@ static json_t *content_json(const struct gn_inspection *in) {
     vec3 size;
     get_scene_size(s, size);
     json_t *counts = json_pack(
-        "{so so so so so so so so}", "nodes", gn_json_make_count(s->node_count), "items",
+        "{so so so so so so so so so so so}", "nodes", gn_json_make_count(s->node_count), "items",
         gn_json_make_count(s->item_count), "instances", gn_json_make_count(s->instance_count),
         "batches", gn_json_make_count(s->batch_count), "geometries",
         gn_json_make_count(s->geometry_count), "vertices",
         gn_json_make_count(s->buffers.vertex_count), "triangles",
         gn_json_make_count(s->triangle_count), "textures",
-        gn_json_make_count(s->pictures.texture_count));
+        gn_json_make_count(s->pictures.texture_count), "skins",
+        gn_json_make_count(s->deformation.skin_count), "joints",
+        gn_json_make_count(s->deformation.joint_count), "targets",
+        gn_json_make_count(s->deformation.weight_count));
     json_t *materials =
         json_pack("{so so so so so so}", "count", gn_json_make_count(s->material_count), "opaque",
                   gn_json_make_count(k.alpha[GN_ALPHA_OPAQUE]), "mask",

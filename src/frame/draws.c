@@ -92,6 +92,24 @@ static void set_transmitted(const struct gn_material *m, struct gn_instance *ins
         instance->base_color[3] *= 1.0f - through;
 }
 
+/* In place of a matrix: where its vertices find what poses them (lib/deform.glsl). */
+static void place_deformed(const struct gn_scene *scene, const struct gn_pose *pose,
+                           const struct gn_item *item, struct gn_instance *instance) {
+    const struct gn_geometry *geometry = &scene->geometries[item->geometry];
+    memset(instance->world, 0, sizeof instance->world);
+    instance->world[0][0] = item->rows.x;
+    instance->world[0][1] = item->rows.y;
+    if (item->morph < 0) return;
+    const struct gn_targets *targets = geometry->targets;
+    const struct gn_strip *list = &scene->deformation.morphs[item->morph].list;
+    instance->world[0][2] = list->x;
+    instance->world[0][3] = list->y;
+    instance->world[1][0] = (float)pose->list_counts[item->morph];
+    instance->world[1][1] = (float)targets->first_texel - (float)geometry->first_vertex;
+    instance->world[1][2] = (float)geometry->vertex_count;
+    instance->world[1][3] = (float)targets->parts;
+}
+
 void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_selection *s, uint32_t item, bool *open) {
     const struct gn_item *what = &frame->scene->items[item];
@@ -124,8 +142,12 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
         *open = true;
     }
     struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 4; c++) instance->world[r][c] = pose->items[item].world_from_item[c][r];
+    if (gn_item_is_deformed(what))
+        place_deformed(frame->scene, pose, what, instance);
+    else
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 4; c++)
+                instance->world[r][c] = pose->items[item].world_from_item[c][r];
     memcpy(instance->base_color, m->base_color, sizeof instance->base_color);
     instance->surface[0] = m->roughness;
     instance->surface[1] = m->metalness;

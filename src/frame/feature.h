@@ -45,13 +45,16 @@
                                        ENCODE: there is such */                                    \
     X(TINTED, "tinted") /* LIT: in colour, which a draw before has multiplied in; this one adds */ \
     X(ENVIRONMENT_KEY, "environment-key") /* smooth surfaces reflect it with its key light */      \
-    X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */
+    X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */        \
+    X(SKIN, "skin")     /* vertices follow up to four joints */                                    \
+    X(SKIN_8, "skin-8") /* or up to eight */                                                       \
+    X(MORPH, "morph")   /* the mesh has targets */
 
 enum gn_feature_bit {
     GN_FEATURE_FIRST_TEXTURE = 0,    /* that slot has a texture */
-    GN_FEATURE_FIRST_UV1 = 12,       /* and reads TEXCOORD_1 */
-    GN_FEATURE_FIRST_ATTRIBUTE = 24, /* VERTEX_COLOR ..: the geometry has it */
-    GN_FEATURE_FIRST_FLAG = 32,
+    GN_FEATURE_FIRST_UV1 = 10,       /* and reads TEXCOORD_1 */
+    GN_FEATURE_FIRST_ATTRIBUTE = 20, /* VERTEX_COLOR ..: the geometry has it */
+    GN_FEATURE_FIRST_FLAG = 24,
 #define GN_X(NAME, ...)                                                                            \
     GN_BIT_##NAME##_TEXTURE = GN_FEATURE_FIRST_TEXTURE + GN_TEXTURE_##NAME,                        \
     GN_BIT_##NAME##_UV1 = GN_FEATURE_FIRST_UV1 + GN_TEXTURE_##NAME,

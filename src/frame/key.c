@@ -12,6 +12,15 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
     return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
 }
 
+/* How its vertices are posed. */
+static uint64_t deformation_features(const struct gn_scene *scene, const struct gn_item *item) {
+    const struct gn_geometry *geometry = &scene->geometries[item->geometry];
+    const bool eight = gn_geometry_has(geometry, GN_ATTRIBUTE_JOINTS1);
+    uint64_t features = item->morph >= 0 ? GN_FEATURE(MORPH) : 0;
+    if (item->skin >= 0) features |= eight ? GN_FEATURE(SKIN_8) : GN_FEATURE(SKIN);
+    return features;
+}
+
 /* The features that the alpha of a masked or blended item depends on. */
 static uint64_t cut_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_material *m = &scene->materials[item->material];
@@ -154,6 +163,7 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     key.aov = (uint8_t)opts->debug.aov;
     key.features = opts->debug.aov == GN_AOV_COLOR ? color_features(frame, item)
                                                    : alpha_features(frame->scene, item);
+    key.features |= deformation_features(frame->scene, item);
     if (opts->debug.aov != GN_AOV_COLOR && m->double_sided)
         key.features |= GN_FEATURE(DOUBLE_SIDED);
     if (opts->debug.aov == GN_AOV_COLOR ? m->unlit : opts->debug.aov != GN_AOV_VISIBILITY)
@@ -224,6 +234,7 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
             m->alpha == GN_ALPHA_OPAQUE ? GN_FEATURE(ALPHA_MASK) : cut_features(frame->scene, what);
         key.features |= GN_FEATURE(ALPHA_DITHER) | texture_features(m, GN_TEXTURE_TRANSMISSION);
     }
+    key.features |= deformation_features(frame->scene, what);
     if (key.kind != GN_PROGRAM_DISTANCE) return key;
     key.encoding = (uint8_t)view->encoding;
     if (view->perspective && !gn_techniques[view->technique].on_plane)

@@ -22,7 +22,7 @@ static struct gn_box find_casters(const struct gn_pose *pose) {
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         if (!gn_shadow_item_casts(scene, i) || item->plane || !pose->items[i].visible ||
-            pose->node_moves[item->node])
+            pose->items[i].moves)
             continue;
         glm_vec3_minv(box.min, (float *)pose->items[i].box_ws.min, box.min);
         glm_vec3_maxv(box.max, (float *)pose->items[i].box_ws.max, box.max);

@@ -72,7 +72,7 @@ _Static_assert(sizeof(struct gn_program_key) == 24 + sizeof(struct gn_light_key[
 /* ---- what a draw reads ---- */
 
 struct gn_instance {     /* instance attributes, locations 10..15 */
-    float world[3][4];   /* rows of world_from_item */
+    float world[3][4];   /* rows of world_from_item; of a deformed item as in lib/deform.glsl */
     float base_color[4]; /* linear */
     float surface[4];    /* roughness, metalness, occlusion strength, alpha cutoff */
     float emissive[4];   /* linear radiance; w: 1 = casts */
@@ -257,6 +257,7 @@ struct gn_plan {
         const struct gn_environment_light *light; /* what ENVIRONMENT programs read, or NULL */
         uint64_t id;                              /* of its content */
     } environment;
+    const float (*pose_texels)[4]; /* of the pose: as many as scene->deformation says */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the camera does not see */
     bool is_behind;  /* wants another frame: a filtered map is older than the pose (filter_texels),

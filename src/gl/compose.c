@@ -41,6 +41,7 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
         gn_gl_text_add(out, "const int SLOT_%s = %d;\n", rows[i].glsl, i);
     gn_gl_text_add(out, "const int SLOT_COUNT = %d;\n", GN_TEXTURE_SLOT_COUNT);
+    gn_gl_text_add(out, "const int DELTAS_WIDTH = %d;\n", GN_DELTAS_WIDTH);
     gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
         if (key->features >> (GN_FEATURE_FIRST_TEXTURE + i) & 1)
@@ -296,7 +297,8 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
         gn_gl_text_add(out, "#define VERTEX_ATTRIBUTES");
         for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
             gn_gl_text_add(
-                out, " layout(location = %d) in vec%d a_%s;", i,
+                out, " layout(location = %d) in %svec%d a_%s;", i,
+                gn_attributes[i].format == GN_ATTRIBUTE_UINT16 ? "u" : "",
                 gn_attributes[i].format == GN_ATTRIBUTE_SNORM16 ? 4 : gn_attributes[i].components,
                 gn_attributes[i].name);
         gn_gl_text_add(out, "\n");

@@ -39,6 +39,7 @@ enum gn_gl_upload_phase {
     GN_GL_UPLOAD_POSITIONS,
     GN_GL_UPLOAD_ATTRIBUTES,
     GN_GL_UPLOAD_INDICES,
+    GN_GL_UPLOAD_DELTAS,
     GN_GL_UPLOAD_PICTURES,
     GN_GL_UPLOAD_DONE,
 };
@@ -72,6 +73,11 @@ struct gn_gl_scene {
     uint64_t buffer_bytes, texture_bytes;
     struct gn_gl_vertices vertices[GN_GL_VERTICES_MAX];
     uint32_t vertices_count;
+    struct { /* of skins and targets; names 0: there are none */
+        GLuint deltas, pose[GN_GL_INSTANCE_RING];
+        uint32_t current; /* of the ring, as that of instances */
+        uint64_t hash;    /* of what the current one holds */
+    } deformation;
 };
 void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene);
 /* Uploads about so many bytes; *done: the scene is complete. On failure all of it is freed. */
@@ -88,6 +94,12 @@ bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_textures_finish(struct gn_gl *gl);
 void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref);
 void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture);
+
+/* deform.c: makes the textures, and uploads the deltas of one geometry; true: of all. */
+bool gn_gl_deltas_step(struct gn_gl *gl, size_t bytes);
+void gn_gl_deformation_finish(struct gn_gl *gl);
+/* Uploads the plan's texels of the pose if they changed, and binds what vertex shaders read. */
+void gn_gl_pose_upload(struct gn_gl *gl, const struct gn_plan *plan);
 
 struct gn_gl_instances { /* a ring, so that a frame does not wait for the one before */
     GLuint buffers[GN_GL_INSTANCE_RING];

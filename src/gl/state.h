@@ -22,6 +22,8 @@ enum { /* texture units: maps first, then one a gn_texture_slot, then slides, on
        GN_GL_UNIT_WORK = GN_GL_UNIT_SLIDE + GN_SLIDES_MAX,
        GN_GL_UNIT_FILTERED,
        GN_GL_UNIT_ENVIRONMENT = GN_GL_UNIT_FILTERED + GN_SHADOWS_MAX, /* a cube */
+       GN_GL_UNIT_POSE, /* what vertex shaders read of skins and targets */
+       GN_GL_UNIT_DELTAS,
        GN_GL_UNIT_COUNT,
 };
 _Static_assert(GN_GL_UNIT_COUNT <= 32, "texture units that ES 3.0 promises");

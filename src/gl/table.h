@@ -102,6 +102,7 @@
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \
     X(PFNGLVERTEXATTRIB4FPROC, VertexAttrib4f)                                                     \
     X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)                                           \
+    X(PFNGLVERTEXATTRIBIPOINTERPROC, VertexAttribIPointer)                                         \
     X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)                                           \
     X(PFNGLVIEWPORTPROC, Viewport)
 

@@ -19,6 +19,8 @@ static const struct gl_format {
     [GN_ATTRIBUTE_FLOAT] = {0, GL_FLOAT},
     [GN_ATTRIBUTE_SNORM16] = {4, GL_SHORT},
     [GN_ATTRIBUTE_UNORM8] = {4, GL_UNSIGNED_BYTE},
+    [GN_ATTRIBUTE_UINT16] = {4, GL_UNSIGNED_SHORT},
+    [GN_ATTRIBUTE_UNORM16] = {4, GL_UNSIGNED_SHORT},
 };
 
 static GLuint make_buffer(struct gn_gl *gl, GLenum target, const void *data, size_t size) {
@@ -168,9 +170,8 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
 /* Runs one phase, for as many bytes as wanted; for SIZE_MAX all phases. */
 bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err *err) {
     static bool (*const sends[])(struct gn_gl *, size_t) = {
-        [GN_GL_UPLOAD_POSITIONS] = send_positions,
-        [GN_GL_UPLOAD_ATTRIBUTES] = send_attributes,
-        [GN_GL_UPLOAD_INDICES] = send_indices,
+        [GN_GL_UPLOAD_POSITIONS] = send_positions,     [GN_GL_UPLOAD_ATTRIBUTES] = send_attributes,
+        [GN_GL_UPLOAD_INDICES] = send_indices,         [GN_GL_UPLOAD_DELTAS] = gn_gl_deltas_step,
         [GN_GL_UPLOAD_PICTURES] = gn_gl_textures_step,
     };
     struct gn_gl_upload *u = &gl->scene.upload;
@@ -196,6 +197,7 @@ void gn_gl_scene_finish(struct gn_gl *gl) {
     gn_gl_object_destroy(gl, GN_GL_BUFFER, &s->attributes);
     gn_gl_object_destroy(gl, GN_GL_BUFFER, &s->indices);
     gn_gl_textures_finish(gl);
+    gn_gl_deformation_finish(gl);
     free(s->uv);
     free(s->material_uv);
     *s = (struct gn_gl_scene){0};
@@ -280,9 +282,12 @@ bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err 
         const struct gl_format *format = &gl_formats[row->format];
         if (!reads_location(attributes, (int)i)) continue;
         if (s->attribute_at[i] >= 0) {
+            const size_t at = (size_t)s->attribute_at[i];
             GL(gl, EnableVertexAttribArray)(i);
-            point_attribute(gl, i, format->size ? format->size : row->components, format->type,
-                            s->attribute_stride, (size_t)s->attribute_at[i]);
+            if (row->format == GN_ATTRIBUTE_UINT16) GL(gl, VertexAttribIPointer)
+            (i, format->size, format->type, s->attribute_stride, (const void *)at);
+            else point_attribute(gl, i, format->size ? format->size : row->components, format->type,
+                                 s->attribute_stride, at);
         } else if (row->missing_is_1)
             GL(gl, VertexAttrib4f)(i, 1.0f, 1.0f, 1.0f, 1.0f);
     }

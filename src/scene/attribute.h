@@ -17,7 +17,12 @@
     X(UV0, uv0, float, uv0, "TEXCOORD_0", 2, 2, ANY, FLOAT, 0)                                     \
     X(UV1, uv1, float, uv1, "TEXCOORD_1", 2, 2, ANY, FLOAT, 0)                                     \
     X(TANGENT, tangent, float, tangents, "TANGENT", 4, 4, SIGNED, SNORM16, 0) /* as normal maps    \
-        need them: made where missing; w: the sign of the bitangent */
+        need them: made where missing; w: the sign of the bitangent */                             \
+    X(JOINTS0, joints0, uint16_t, joints0, "JOINTS_0", 4, 4, UNSIGNED, UINT16, 0)                  \
+    X(WEIGHTS0, weights0, uint16_t, weights0, "WEIGHTS_0", 4, 4, UNSIGNED, UNORM16, 0)             \
+    X(JOINTS1, joints1, uint16_t, joints1, "JOINTS_1", 4, 4, UNSIGNED, UINT16, 0)                  \
+    X(WEIGHTS1, weights1, uint16_t, weights1, "WEIGHTS_1", 4, 4, UNSIGNED, UNORM16, 0) /* all of   \
+        meshes with a skin; the weights of a vertex are 1 together */
 
 /* The same, of those that are a feature of a program, VERTEX_NAME (frame/feature.h), where a
  * geometry has them. */
@@ -44,12 +49,16 @@ enum gn_attribute_format {
     GN_ATTRIBUTE_FLOAT,   /* floats; the same */
     GN_ATTRIBUTE_SNORM16, /* floats -1..1; four shorts */
     GN_ATTRIBUTE_UNORM8,  /* four bytes that stand for 0..1; the same */
+    GN_ATTRIBUTE_UINT16,  /* four numbers; the same */
+    GN_ATTRIBUTE_UNORM16, /* four that stand for 0..1; the same */
     GN_ATTRIBUTE_FORMAT_COUNT,
 };
 
 #define GN_GPU_BYTES_FLOAT(components)   (4 * (components))
 #define GN_GPU_BYTES_SNORM16(components) 8
 #define GN_GPU_BYTES_UNORM8(components)  4
+#define GN_GPU_BYTES_UINT16(components)  8
+#define GN_GPU_BYTES_UNORM16(components) 8
 #define GN_X(NAME, name, type, field, semantic, least, components, types, format, ...)             \
     +GN_GPU_BYTES_##format(components)                    /* NOLINT(bugprone-macro-parentheses) */
 enum { GN_ATTRIBUTES_GPU_BYTES = 0 GN_ATTRIBUTES(GN_X) }; /* of a vertex that has all */

@@ -91,7 +91,8 @@ bool gn_scene_batch(struct gn_gltf *g) {
         const struct gn_item *item = &scene->items[i];
         uint32_t flags = (uint32_t)item->casts | (uint32_t)item->receives << 1 |
                          (uint32_t)item->cast_faces << 2 | (uint32_t)item->plane << 8 |
-                         (uint32_t)item->casts_alpha << 16;
+                         (uint32_t)item->casts_alpha << 16 | (uint32_t)(item->skin >= 0) << 17 |
+                         (uint32_t)(item->morph >= 0) << 18;
         const struct gn_material *m = &scene->materials[item->material];
         keys[i] = (struct item_key){
             .part = {[KEY_ALPHA] = gn_material_is_blended(m) ? GN_ALPHA_BLEND : m->alpha,

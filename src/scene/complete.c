@@ -1,6 +1,9 @@
 /* Completes a scene: bounds, the plane, a key light and a camera if it has none. */
 #include "scene/private.h"
 
+#include <math.h>
+
+#include "scene/deform.h"
 #include "scene/framing.h"
 
 /* A node at position whose -Z looks along forward_ws. */
@@ -8,6 +11,7 @@ static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec
     struct gn_scene *scene = g->scene;
     struct gn_node *node = &scene->nodes[scene->node_count];
     g->placed[scene->node_count].mesh = -1;
+    g->placed[scene->node_count].morph = -1;
     *node = (struct gn_node){.name = gn_gltf_strdup(g, name), .parent = -1, .has_matrix = true};
     glm_mat4_identity(node->matrix);
     glm_vec3_normalize_to(forward_ws, node->matrix[2]);
@@ -44,6 +48,13 @@ bool gn_scene_complete(struct gn_gltf *g) {
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_NONE);
     scene->box = pose.box_ws;
+    if (scene->deformation.width > 0) { /* that box may be larger than what is there */
+        scene->box = GN_BOX_EMPTY;
+        for (uint32_t i = 0; i < scene->item_count; i++) {
+            const struct gn_box box = gn_pose_tight_box(&pose, i);
+            gn_box_join(&scene->box, &box);
+        }
+    }
     if (scene->box.min[0] > scene->box.max[0]) /* nothing is visible in the initial pose */
         scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
     gn_scene_find_planes(g, &pose);

@@ -19,8 +19,9 @@ enum {
     POSES = 256,     /* of one choice of clips, at most */
     EVEN_POSES = 64, /* of these, at least so many evenly over its time */
     FEW_POSES = 16,
-    LOOKS = 1 << 20, /* nodes and items that are posed, for all choices of clips together */
-    REPEATS = 4,     /* times that the longest clip is played, where clips last differently */
+    LOOKS = 1 << 20,    /* nodes and items that are posed, for all choices of clips together */
+    VERTICES = 4 << 20, /* that are deformed, for all choices of clips together */
+    REPEATS = 4,        /* times that the longest clip is played, where clips last differently */
 };
 
 struct hull {
@@ -38,7 +39,8 @@ struct measure { /* of a scene */
     struct gn_gltf *g;
     const struct gn_scene *scene;
     struct directions towards;
-    struct shape *shapes; /* of each geometry */
+    struct shape *shapes;   /* of each geometry */
+    uint64_t vertices_left; /* of deformed items, that may still be posed */
 };
 
 /* Spiral of Fibonacci: equal steps of height, the golden angle between two. */
@@ -122,6 +124,25 @@ static void measure_shape(struct measure *m, const struct gn_geometry *g, struct
     shape->count = count;
 }
 
+/* Vertex by vertex while that is not too much work, else the corners of the box. */
+static void add_deformed(struct measure *m, const struct gn_pose *pose, uint32_t item,
+                         const uint8_t *exceeded, int count, struct hull *hull) {
+    const struct gn_geometry *g = &m->scene->geometries[m->scene->items[item].geometry];
+    const uint32_t *indices = m->scene->buffers.indices + g->first_index;
+    const struct gn_box *box = &pose->items[item].box_ws;
+    const bool exact = g->index_count <= m->vertices_left;
+    vec3 p;
+    if (exact) m->vertices_left -= g->index_count;
+    for (uint32_t i = 0; exact && i < g->index_count; i++) {
+        gn_pose_corner(pose, item, indices[i], p);
+        add_point(hull, &m->towards, exceeded, count, p);
+    }
+    for (int i = 0; !exact && i < 8; i++) {
+        for (int k = 0; k < 3; k++) p[k] = i >> k & 1 ? box->max[k] : box->min[k];
+        add_point(hull, &m->towards, exceeded, count, p);
+    }
+}
+
 /* Adds the items of this pose: those that move, or those that do not. */
 static void add_items(struct measure *m, const struct gn_pose *pose, bool moving,
                       struct hull *hull) {
@@ -130,8 +151,12 @@ static void add_items(struct measure *m, const struct gn_pose *pose, bool moving
         const struct gn_pose_item *item = &pose->items[i];
         const uint32_t geometry = m->scene->items[i].geometry;
         struct shape *shape = &m->shapes[geometry];
-        if (!item->visible || pose->node_moves[m->scene->items[i].node] != moving) continue;
+        if (!item->visible || item->moves != moving) continue;
         const int count = find_exceeded(hull, &m->towards, &item->box_ws, exceeded);
+        if (gn_item_is_deformed(&m->scene->items[i])) {
+            if (count > 0) add_deformed(m, pose, i, exceeded, count, hull);
+            continue;
+        }
         if (count > 0 && shape->count == 0)
             measure_shape(m, &m->scene->geometries[geometry], shape);
         for (uint32_t k = 0; count > 0 && k < shape->count; k++) {
@@ -154,8 +179,7 @@ static uint64_t count_moving(const struct gn_pose *pose) {
     const struct gn_scene *scene = pose->scene;
     uint64_t count = 1;
     for (uint32_t i = 0; i < scene->node_count; i++) count += pose->node_moves[i];
-    for (uint32_t i = 0; i < scene->item_count; i++)
-        count += pose->node_moves[scene->items[i].node];
+    for (uint32_t i = 0; i < scene->item_count; i++) count += pose->items[i].moves;
     for (uint32_t i = 0; i < scene->animation.clip_count; i++)
         if (plays_clip(pose, i)) count += scene->animation.clips[i].channel_count;
     return count;
@@ -236,7 +260,7 @@ bool gn_scene_measure(struct gn_gltf *g, struct gn_pose *pose) {
     struct gn_scene *scene = g->scene;
     const struct gn_scene_animation *animation = &scene->animation;
     const int clip_count = (int)animation->clip_count;
-    struct measure m = {.g = g, .scene = scene};
+    struct measure m = {.g = g, .scene = scene, .vertices_left = VERTICES};
     m.shapes = gn_gltf_alloc(g, &g->memory.step, scene->geometry_count, sizeof *m.shapes);
     scene->extents = gn_gltf_alloc(g, g->memory.scene, (uint64_t)(clip_count - GN_POSE_NONE),
                                    sizeof *scene->extents);

@@ -71,9 +71,7 @@ static bool has_floor(const struct gn_scene *scene, const struct gn_pose *pose) 
         const uint32_t *index = scene->buffers.indices + geometry->first_index;
         for (uint32_t t = 0; t + 2 < geometry->index_count && --f.work_left > 0; t += 3) {
             vec3 corner[3];
-            for (int k = 0; k < 3; k++)
-                glm_mat4_mulv3((vec4 *)posed->world_from_item,
-                               scene->buffers.positions + 3 * (size_t)index[t + k], 1, corner[k]);
+            for (int k = 0; k < 3; k++) gn_pose_corner(pose, i, index[t + (uint32_t)k], corner[k]);
             mark_triangle(&f, corner, posed->mirrored,
                           scene->materials[item->material].double_sided);
         }
@@ -138,6 +136,7 @@ void gn_scene_add_floor(struct gn_gltf *g, struct gn_pose *pose) {
 
     const uint32_t node = scene->node_count++, material = scene->material_count++;
     g->placed[node].mesh = -1;
+    g->placed[node].morph = -1;
     scene->nodes[node] = (struct gn_node){
         .name = gn_gltf_strdup(g, "floor"),
         .parent = -1,
@@ -163,6 +162,8 @@ void gn_scene_add_floor(struct gn_gltf *g, struct gn_pose *pose) {
         .geometry = add_square(scene),
         .material = material,
         .instance = -1,
+        .skin = -1,
+        .morph = -1,
         .receives = true,
         .plane = !named,
         .cast_faces = GN_CAST_BOTH,

@@ -82,15 +82,14 @@ static void fill_columns(struct columns *c, const struct gn_scene *scene,
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         const struct gn_geometry *geometry = &scene->geometries[item->geometry];
-        if (!pose->items[i].visible || !item->casts || pose->node_moves[item->node]) continue;
+        if (!pose->items[i].visible || !item->casts || pose->items[i].moves) continue;
         if (gn_material_is_clear(&scene->materials[item->material])) continue;
         const uint32_t *index = scene->buffers.indices + geometry->first_index;
         for (uint32_t t = 0; t + 2 < geometry->index_count; t += 3) {
             if (--c->work_left < 0) return;
             vec3 corner[3];
             for (int k = 0; k < 3; k++) {
-                glm_mat4_mulv3((vec4 *)pose->items[i].world_from_item,
-                               scene->buffers.positions + 3 * (size_t)index[t + k], 1, corner[k]);
+                gn_pose_corner(pose, i, index[t + (uint32_t)k], corner[k]);
                 corner[k][1] = fmaxf(corner[k][1] - floor_m, 0);
             }
             add_triangle(c, corner);

@@ -52,7 +52,7 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
         const struct gn_attribute_row *row = &gn_attributes[i];
         uint8_t *array = g->scene->buffers.attributes[i];
         gather.accessor = gn_gltf_accessor(g, attribute[i]);
-        if (!array) continue;
+        if (!array || row->format >= GN_ATTRIBUTE_UINT16) continue; /* of skins: below */
         uint8_t *bytes = array + gather.first * row->bytes;
         float *floats = (float *)(void *)bytes;
         const size_t count = gather.count * row->components;
@@ -76,7 +76,7 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
                 if (!(fabsf(floats[k]) < 1e18f)) floats[k] = 0;
         }
     }
-    return true;
+    return gn_skin_put_vertices(g, attribute, gather.source, gather.first, gather.count);
 }
 
 /* ---- corners ---- */
@@ -299,11 +299,12 @@ static bool fill_own_geometry(struct gn_gltf *g, const struct gn_at *at,
             g, shape->attribute,
             (struct gather){.source = own.source, .first = first, .count = own.count}))
         return false;
-    if (!own.tangents) return true;
-    memcpy(buffers->tangents + 4 * first, own.tangents, own.count * sizeof *own.tangents);
-    gn_geometry_repair_tangents(g->scene, first, own.count);
-    geometry->attributes |= 1u << GN_ATTRIBUTE_TANGENT;
-    return true;
+    if (own.tangents) {
+        memcpy(buffers->tangents + 4 * first, own.tangents, own.count * sizeof *own.tangents);
+        gn_geometry_repair_tangents(g->scene, first, own.count);
+        geometry->attributes |= 1u << GN_ATTRIBUTE_TANGENT;
+    }
+    return !shape->targets || gn_morph_build(g, at, shape, own.source, geometry);
 }
 
 static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
@@ -338,7 +339,7 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
     if (vertices->lacks_normals &&
         gn_normals_repair(buffers->positions, buffers->normals, corners, count) > 0)
         gn_gltf_warn(g, at, NORMALS_REPAIRED);
-    return true;
+    return !shape->targets || gn_morph_build(g, at, shape, NULL, geometry);
 }
 
 /* Allocates for the largest possible number of vertices and indices. */
@@ -397,6 +398,8 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
         if (!filled || !gn_gltf_check_time(g)) return false;
         scene->buffers.index_count += geometry->index_count;
         gn_geometry_measure(scene, geometry, &shape->area);
+        if (gn_geometry_has(geometry, GN_ATTRIBUTE_JOINTS0) && !gn_skin_measure(g, geometry))
+            return false;
         if (shape->attribute[GN_ATTRIBUTE_NORMAL] >=
             0) /* else its normals are those of the faces */
             gn_geometry_add_spreads(scene, geometry);

@@ -21,6 +21,12 @@ uint64_t gn_scene_index_bytes(const struct gn_scene *scene) {
     return (uint64_t)scene->buffers.index_count * (scene->buffers.vertex_count > 65536 ? 4 : 2);
 }
 
+uint64_t gn_scene_deformation_bytes(const struct gn_scene *scene) {
+    const struct gn_scene_deformation *d = &scene->deformation;
+    const uint64_t rows = (d->delta_texels + GN_DELTAS_WIDTH - 1) / GN_DELTAS_WIDTH;
+    return sizeof(vec4) * (rows * GN_DELTAS_WIDTH + (uint64_t)3 * d->width * d->height);
+}
+
 bool gn_scene_count_gpu(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -34,7 +40,7 @@ bool gn_scene_count_gpu(struct gn_gltf *g) {
     }
     for (uint32_t i = 0; i < scene->light_count; i++) mark_use(scene, scene->lights[i].slide, true);
     uint64_t textures = 0,
-             buffers = gn_scene_index_bytes(scene) +
+             buffers = gn_scene_index_bytes(scene) + gn_scene_deformation_bytes(scene) +
                        (uint64_t)gn_scene_vertex_bytes(scene) * scene->buffers.vertex_count;
     for (uint32_t i = 0; i < scene->pictures.image_count; i++)
         textures += gn_scene_image_bytes(&scene->pictures.images[i]);

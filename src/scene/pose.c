@@ -6,6 +6,7 @@
 
 #include "core/arena.h"
 #include "core/hash.h"
+#include "scene/deform.h"
 #include "scene/private.h"
 
 struct memory {              /* pose->memory */
@@ -13,9 +14,10 @@ struct memory {              /* pose->memory */
     uint32_t *nodes, *items; /* animated ones */
     uint32_t node_count, item_count;
     struct gn_box still_ws; /* of the visible items that are not animated */
+    struct gn_deformer deformer;
 };
 
-static const float LIMIT = 1e18f; /* the square of a larger number overflows */
+#define LIMIT GN_POSE_LIMIT
 
 /* ---- matrices ---- */
 
@@ -30,49 +32,6 @@ void gn_node_local(const struct gn_node *node, mat4 parent_from_node) {
     glm_vec3_copy((float *)node->translation, parent_from_node[3]);
 }
 
-double gn_cofactor(mat4 m, mat3 out) {
-    double c[3][3], det = 0;
-    for (int k = 0; k < 3; k++) {
-        const float *u = m[(k + 1) % 3], *v = m[(k + 2) % 3];
-        for (int i = 0; i < 3; i++) {
-            int j = (i + 1) % 3, l = (i + 2) % 3;
-            c[k][i] = (double)u[j] * (double)v[l] - (double)u[l] * (double)v[j];
-            out[k][i] = (float)c[k][i];
-        }
-    }
-    for (int i = 0; i < 3; i++) det += (double)m[0][i] * c[0][i];
-    return det;
-}
-
-/* ---- boxes ---- */
-
-static const struct gn_box EMPTY = {{INFINITY, INFINITY, INFINITY},
-                                    {-INFINITY, -INFINITY, -INFINITY}};
-
-static void join_boxes(struct gn_box *box, const struct gn_box *other) {
-    for (int k = 0; k < 3; k++) {
-        box->min[k] = fminf(box->min[k], other->min[k]);
-        box->max[k] = fmaxf(box->max[k], other->max[k]);
-    }
-}
-
-/* Arvo, Transforming axis-aligned bounding boxes, Graphics Gems, 1990. */
-static struct gn_box transform_box(mat4 m, const struct gn_box *box) {
-    struct gn_box out;
-    for (int k = 0; k < 3; k++) {
-        double low = (double)m[3][k], high = low;
-        for (int i = 0; i < 3; i++) {
-            double a = (double)m[i][k] * (double)box->min[i],
-                   b = (double)m[i][k] * (double)box->max[i];
-            low += a < b ? a : b;
-            high += a < b ? b : a;
-        }
-        out.min[k] = (float)low;
-        out.max[k] = (float)high;
-    }
-    return out;
-}
-
 /* ---- items ---- */
 
 static void pose_item(struct gn_pose *pose, uint32_t i) {
@@ -85,19 +44,25 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
     else
         glm_mat4_mul(world_from_node, scene->instances[item->instance], out->world_from_item);
     out->visible = true;
+    out->box = scene->geometries[item->geometry].box;
+    if (gn_item_is_deformed(item))
+        gn_deform_item(&((struct memory *)pose->memory)->deformer, pose, i);
     for (int k = 0; k < 16; k++) out->visible &= fabsf(out->world_from_item[k / 4][k % 4]) < LIMIT;
     if (out->visible) {
         mat3 cofactor; /* nothing has an area if it is 0 */
-        out->mirrored = gn_cofactor(out->world_from_item, cofactor) < 0;
-        out->box_ws = transform_box(out->world_from_item, &scene->geometries[item->geometry].box);
+        const bool mirrored = gn_cofactor(out->world_from_item, cofactor) < 0;
+        if (item->skin < 0) out->mirrored = mirrored;
+        out->box_ws = gn_box_transform(out->world_from_item, &out->box);
         float area =
             glm_vec3_norm(cofactor[0]) + glm_vec3_norm(cofactor[1]) + glm_vec3_norm(cofactor[2]);
         out->visible = area > 0;
         for (int k = 0; k < 3; k++)
             out->visible &= fabsf(out->box_ws.min[k]) < LIMIT && fabsf(out->box_ws.max[k]) < LIMIT;
     }
-    if (!out->visible) out->box_ws = EMPTY;
+    if (!out->visible) out->box_ws = GN_BOX_EMPTY;
     out->hash = gn_hash(GN_HASH_INIT, out->world_from_item, sizeof out->world_from_item);
+    if (gn_item_is_deformed(item))
+        out->hash = gn_deform_hash(&((struct memory *)pose->memory)->deformer, item, out->hash);
 }
 
 static void pose_node(struct gn_pose *pose, uint32_t i) {
@@ -119,6 +84,15 @@ static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
 
 /* ---- the pose ---- */
 
+/* A node that a clip moves, or whose weights it changes. */
+static void mark_channel(struct gn_pose *pose, const struct gn_channel *channel) {
+    struct memory *memory = pose->memory;
+    if (channel->path == GN_ANIM_WEIGHTS)
+        memory->deformer.morph_moves[channel->morph] = true;
+    else
+        pose->node_moves[channel->node] = true;
+}
+
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
     *pose = (struct gn_pose){.scene = scene, .clips = clips};
     struct memory *memory = pose->memory = gn_xalloc(1, sizeof *memory);
@@ -128,6 +102,7 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
     memory->local = gn_xalloc(scene->node_count, sizeof *memory->local);
     memory->nodes = gn_xalloc(scene->node_count, sizeof *memory->nodes);
     memory->items = gn_xalloc(scene->item_count, sizeof *memory->items);
+    gn_deformer_init(&memory->deformer, pose);
     gn_pose_choose(pose, clips);
 }
 
@@ -141,6 +116,7 @@ void gn_pose_choose(struct gn_pose *pose, int clips) {
         memcpy(memory->local, scene->nodes, scene->node_count * sizeof *memory->local);
         memset(pose->node_moves, 0, scene->node_count * sizeof *pose->node_moves);
     }
+    gn_deformer_reset(&memory->deformer, pose);
 
     /* marks and lists the nodes and items that the clips animate */
     for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
@@ -148,24 +124,31 @@ void gn_pose_choose(struct gn_pose *pose, int clips) {
         if (!clip_on(pose, c)) continue;
         if (clip->channel_count > 0) pose->animated = true;
         for (uint32_t i = 0; i < clip->channel_count; i++)
-            pose->node_moves[scene->animation.channels[clip->first_channel + i].node] = true;
+            mark_channel(pose, &scene->animation.channels[clip->first_channel + i]);
     }
     for (uint32_t i = 0; i < scene->node_count; i++) {
         int32_t parent = scene->nodes[i].parent;
         if (parent >= 0 && pose->node_moves[parent]) pose->node_moves[i] = true;
         if (pose->node_moves[i]) memory->nodes[memory->node_count++] = i;
     }
-    for (uint32_t i = 0; i < scene->item_count; i++)
-        if (pose->node_moves[scene->items[i].node]) memory->items[memory->item_count++] = i;
+    gn_deformer_choose(&memory->deformer, pose);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        const struct gn_item *item = &scene->items[i];
+        pose->items[i].moves = item->skin < 0 && pose->node_moves[item->node];
+        if (gn_item_is_deformed(item))
+            pose->items[i].moves |= gn_deformer_moves(&memory->deformer, item);
+        if (pose->items[i].moves) memory->items[memory->item_count++] = i;
+    }
 
     /* everything is posed once; items that are not animated keep this pose */
-    memory->still_ws = EMPTY;
+    memory->still_ws = GN_BOX_EMPTY;
     for (uint32_t i = 0; i < scene->node_count; i++) pose_node(pose, i);
+    gn_deformer_step(&memory->deformer, pose, false);
     for (uint32_t i = 0; i < scene->item_count; i++) {
-        if (pose->node_moves[scene->items[i].node]) continue;
+        if (pose->items[i].moves) continue;
         pose_item(pose, i);
         if (!scene->materials[scene->items[i].material].shadow_catcher)
-            join_boxes(&memory->still_ws, &pose->items[i].box_ws);
+            gn_box_join(&memory->still_ws, &pose->items[i].box_ws);
     }
     pose->box_ws = memory->still_ws;
     if (pose->aimed) gn_pose_aim(pose, pose->aim_ws);
@@ -189,15 +172,18 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
             struct gn_node *node = &memory->local[channel->node];
             float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
                                      [GN_ANIM_ROTATION] = node->rotation,
-                                     [GN_ANIM_SCALE] = node->scale};
+                                     [GN_ANIM_SCALE] = node->scale,
+                                     [GN_ANIM_WEIGHTS] =
+                                         gn_deformer_weights(&memory->deformer, pose, channel)};
             gn_channel_sample(channel, time_s, target[channel->path]);
         }
     }
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
+    gn_deformer_step(&memory->deformer, pose, true);
     pose->box_ws = memory->still_ws;
     for (uint32_t i = 0; i < memory->item_count; i++) {
         pose_item(pose, memory->items[i]);
-        join_boxes(&pose->box_ws, &pose->items[memory->items[i]].box_ws);
+        gn_box_join(&pose->box_ws, &pose->items[memory->items[i]].box_ws);
     }
 }
 
@@ -207,11 +193,14 @@ void gn_pose_finish(struct gn_pose *pose) {
         free(memory->local);
         free(memory->nodes);
         free(memory->items);
+        gn_deformer_finish(&memory->deformer);
         free(memory);
     }
     free(pose->world_from_node);
     free(pose->node_moves);
     free(pose->items);
+    free(pose->texels);
+    free(pose->list_counts);
     *pose = (struct gn_pose){0};
 }
 

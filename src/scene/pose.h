@@ -11,11 +11,13 @@ enum gn_pose_clips {
 }; /* or a clip's number: that one alone */
 
 struct gn_pose_item {
-    mat4 world_from_item;
+    mat4 world_from_item; /* with a skin: identity */
+    struct gn_box box;    /* of what it is made of, item space */
     struct gn_box box_ws;
     bool mirrored; /* negative determinant: front faces wind the other way */
     bool visible;  /* false: scaled to nothing or not finite; never drawn */
-    uint64_t hash; /* of world_from_item */
+    bool moves;    /* a channel moves or deforms it */
+    uint64_t hash; /* of all that its vertices depend on */
 };
 
 struct gn_pose {
@@ -28,8 +30,11 @@ struct gn_pose {
     bool animated;              /* some clip is on: time changes the pose */
     bool aimed;                 /* the light that the loader added shines along aim_ws */
     vec3 aim_ws;
-    bool *node_moves; /* scene->node_count: an active channel moves it or one of its parents */
-    void *memory;     /* private */
+    vec4 *texels; /* scene->deformation.width x height; what vertex shaders read of skins and
+                     targets: rows of world_from_mesh of each joint, and lists of weights */
+    uint32_t *list_counts; /* by deformation.morphs: how many targets have a weight */
+    bool *node_moves;      /* scene->node_count: an active channel moves it or one of its parents */
+    void *memory;          /* private */
 };
 
 /* Makes a pose at time 0. The scene must outlive it. */
@@ -54,6 +59,13 @@ void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
 /* Normalises a vector of any length; zero stays zero. glm_vec3_normalize() of cglm 0.9 and later
  * returns zero for lengths under 1.2e-7. */
 void gn_unit(vec3 v);
+
+/* Where a vertex of an item is, world space: mesh space for gn_scene_buffers.positions. The second
+ * computes in floats, as a GPU would, where nothing is deformed. */
+void gn_pose_vertex(const struct gn_pose *pose, uint32_t item, uint32_t vertex, double out[3]);
+void gn_pose_corner(const struct gn_pose *pose, uint32_t item, uint32_t vertex, vec3 out);
+/* Exact, where gn_pose_item.box_ws may be larger. */
+struct gn_box gn_pose_tight_box(const struct gn_pose *pose, uint32_t item);
 
 /* The plane of a flat item, world space: n.p + d = 0, |n| = 1, on the side its front faces look to.
  */

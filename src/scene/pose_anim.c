@@ -4,7 +4,8 @@
 #include <string.h>
 
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out) {
-    int n = channel->path == GN_ANIM_ROTATION ? 4 : 3;
+    const int n = (int)channel->components;
+    const bool rotates = channel->path == GN_ANIM_ROTATION;
     bool cubic = channel->interpolation == GN_ANIM_CUBIC;
     size_t stride = (size_t)n * (cubic ? 3 : 1);
     uint32_t k = 0; /* the last key at or before time_s, or the first */
@@ -27,8 +28,8 @@ void gn_channel_sample(const struct gn_channel *channel, double time_s, float *o
         for (int i = 0; cubic && i < n; i++)
             out[i] = (2 * u3 - 3 * u2 + 1) * a[n + i] + dt * (u3 - 2 * u2 + u) * a[2 * n + i] +
                      (3 * u2 - 2 * u3) * b[n + i] + dt * (u3 - u2) * b[i];
-        for (int i = 0; !cubic && n == 3 && i < n; i++) out[i] = a[i] + (b[i] - a[i]) * u;
-        if (!cubic && n == 4) {
+        for (int i = 0; !cubic && !rotates && i < n; i++) out[i] = a[i] + (b[i] - a[i]) * u;
+        if (!cubic && rotates) {
             versor from, to;
             memcpy(from, a, sizeof from);
             memcpy(to, b, sizeof to);
@@ -37,5 +38,5 @@ void gn_channel_sample(const struct gn_channel *channel, double time_s, float *o
             glm_quat_slerp(from, to, u, out);
         }
     }
-    if (n == 4) glm_quat_normalize(out);
+    if (rotates) glm_quat_normalize(out);
 }

@@ -47,8 +47,6 @@ struct gn_accessor {
 /* X(NAME, words, extension of materials or NULL): what is not supported yet; the scene is shown
  * without, and missing.c lists it. */
 #define GN_MISSING(X)                                                                              \
-    X(SKINS, "skins", NULL)                                                                        \
-    X(MORPHS, "morph targets", NULL)                                                               \
     X(VARIANTS, "material variants", NULL)                                                         \
     X(BASISU, "KTX2 pictures", NULL)                                                               \
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
@@ -75,7 +73,8 @@ struct gn_primitive { /* of a mesh */
     int32_t material; /* the file's number, or -1 */
 };
 struct gn_mesh {
-    bool used;
+    bool used, skinned; /* by a node; by one with a skin */
+    uint32_t target_count;
     uint32_t first_primitive, primitive_count;
 };
 
@@ -88,6 +87,7 @@ struct gn_shape { /* the source of a geometry */
     int32_t attribute[GN_ATTRIBUTE_COUNT];
     int32_t indices, mode;
     int32_t tangents;         /* to make (gn_gltf_tangents); 0: none */
+    int32_t targets;          /* 0: it has none; else no other shape has the same */
     uint32_t vertices;        /* index into primitives.vertices; UINT32_MAX: its own, since normals
                                  or tangents are made */
     uint32_t mesh, primitive; /* the first to use it, for messages */
@@ -98,7 +98,8 @@ struct gn_shape { /* the source of a geometry */
 enum gn_tristate { GN_UNSET, GN_NO, GN_YES };
 struct gn_placed { /* what glTF and its extras attach to a node of the scene */
     size_t json;   /* its number in the file */
-    int32_t mesh;
+    int32_t mesh, skin;
+    int32_t morph; /* index in the scene, or -1 */
     uint32_t first_instance, instance_count;
     bool bare; /* not listed by the scene: kept for a descendant that is */
     bool receives, casts, casts_alpha;
@@ -122,7 +123,7 @@ struct gn_gltf_file { /* what the file declares, by its own numbers */
     const float **key_times; /* per accessor: times already copied */
     struct gn_mesh *meshes;
     size_t buffer_count, view_count, accessor_count, mesh_count, material_count, node_count,
-        texture_count, image_count;
+        texture_count, image_count, skin_count;
 };
 struct gn_gltf_primitives { /* of the meshes in use, mesh by mesh, and what they share */
     struct gn_primitive *list;
@@ -149,6 +150,7 @@ struct gn_gltf_to_scene { /* from numbers of the file to indices in the scene */
     int32_t *node;        /* -1: not shown */
     int32_t *texture;     /* -1: not looked at yet, -2: dropped */
     int32_t *image;       /* the same */
+    int32_t *skin;        /* -1: not used yet */
 };
 enum { GN_ADDED_NODES = 3 }; /* at most: a camera, a light, a floor */
 struct gn_gltf {
@@ -189,6 +191,8 @@ void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format,
 
 /* Zeroed memory within memory_mb over all arenas; NULL fails the load. */
 void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size);
+/* Counts memory that lies elsewhere, as of the GPU, within memory_mb; false fails the load. */
+bool gn_gltf_count(struct gn_gltf *g, uint64_t bytes);
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text); /* "" for NULL; into the scene */
 /* Bytes left within memory_mb. */
 size_t gn_gltf_room(const struct gn_gltf *g);
@@ -211,6 +215,7 @@ bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf/accessor.c */
 bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf/node.c */
 bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf/mesh.c */
 bool gn_gltf_instances(struct gn_gltf *g);  /* gltf/instance.c */
+bool gn_gltf_skins(struct gn_gltf *g);      /* gltf/skin.c */
 bool gn_gltf_geometries(struct gn_gltf *g); /* geometry.c */
 bool gn_gltf_items(struct gn_gltf *g);      /* gltf/item.c */
 bool gn_gltf_materials(struct gn_gltf *g);  /* gltf/material.c */
@@ -269,6 +274,24 @@ void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *g
 bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry);
 /* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
+
+/* skin.c */
+/* Joints and weights of vertices, first .. first + count of the scene's, each that of the file's
+ * named by source, or the same number if source is NULL. Weights become 1 together. */
+bool gn_skin_put_vertices(struct gn_gltf *g, const int32_t *attribute, const uint32_t *source,
+                          size_t first, size_t count);
+/* Sets joint_boxes of a geometry with joints. */
+bool gn_skin_measure(struct gn_gltf *g, struct gn_geometry *geometry);
+
+/* morph.c: reads the targets of a geometry whose vertices are there; source as above. None where
+ * there is no room for their deltas, with a warning. */
+bool gn_morph_build(struct gn_gltf *g, const struct gn_at *primitive, const struct gn_shape *shape,
+                    const uint32_t *source, struct gn_geometry *geometry);
+
+/* gltf/skin.c: a strip of so many rows among the pose's texels. */
+bool gn_gltf_strip(struct gn_gltf *g, const struct gn_at *at, uint32_t rows, struct gn_strip *out);
+/* Sets skin, morph and rows of an item, as its geometry has joints and targets. */
+bool gn_gltf_deform_item(struct gn_gltf *g, struct gn_item *item);
 
 /* Of the vertices first .. first + count: tangents of length 0 become any in the surface, w -1
  * or 1.
@@ -343,11 +366,12 @@ int32_t gn_floor_occlusion(struct gn_gltf *g, const struct gn_pose *pose, const 
 /* gltf/material.c: glTF's default material, and the defaults of every other. */
 void gn_material_init(struct gn_material *material);
 
-/* pose_anim.c: the value of a channel at a time, 3 or 4 floats. */
+/* pose_anim.c: the value of a channel at a time, its components. */
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out);
 
 /* pose.c */
 void gn_node_local(const struct gn_node *node, mat4 parent_from_node);
-double gn_cofactor(mat4 m, mat3 out); /* of the upper 3x3; returns the determinant */
+/* deform.c: of the upper 3x3; returns the determinant */
+double gn_cofactor(mat4 m, mat3 out);
 
 #endif

@@ -65,6 +65,42 @@ struct gn_material {
     struct gn_texture_ref textures[GN_TEXTURE_SLOT_COUNT];
 };
 
+/* Where a part of the pose's texels begins: the pose writes them, vertex shaders fetch them. A
+ * joint takes the three texels of a row, the rows of its matrix; joints follow downwards. */
+struct gn_strip {
+    uint16_t x, y;
+};
+enum {
+    GN_STRIP_WIDTH = 3,
+    GN_JOINTS_MAX = 1024,      /* of a skin, and targets of a mesh */
+    GN_POSE_WIDTH_MAX = 2046,  /* texels, of strips side by side; each GN_JOINTS_MAX high */
+    GN_DELTAS_WIDTH = 2048,    /* texels of a row, of the texture of all targets' deltas */
+    GN_DELTAS_ROWS_MAX = 4096, /* as large as textures are on every board */
+};
+
+struct gn_joint {
+    int32_t node; /* -1: none of the shown scene; it stays as in the bind pose */
+    mat4 joint_from_mesh;
+};
+struct gn_skin {                       /* one per skin of the file that is in use */
+    uint32_t first_joint, joint_count; /* of deformation.joints */
+    struct gn_strip rows;              /* world_from_mesh of each joint */
+};
+struct gn_morphed {                            /* a node whose mesh has targets */
+    uint32_t node, first_weight, weight_count; /* of deformation.weights */
+    struct gn_strip list; /* of targets with a weight: (weight, number), a texel each */
+};
+struct gn_targets { /* of a geometry */
+    uint32_t count, first_texel;
+    uint8_t parts;        /* 1: positions; 2: and normals; 3: and tangents */
+    vec4 *deltas;         /* target by target, part by part, vertex by vertex; w: 0 */
+    struct gn_box *boxes; /* of the deltas of positions, by target */
+};
+struct gn_joint_box { /* of the vertices that a joint moves, mesh space */
+    uint32_t joint;
+    struct gn_box box;
+};
+
 /* One unique set of accessors: a range of the scene's vertices and indices. Triangles only (strips
  * and fans are unrolled). Primitives that name the same accessors share one geometry whatever their
  * materials; geometries with the same vertex accessors share the range of vertices. One without
@@ -78,6 +114,9 @@ struct gn_geometry {
     bool flat;           /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
     bool closed; /* the boundary of solid bodies, front faces outward; false when in doubt */
     vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
+    struct gn_joint_box *joint_boxes; /* by ascending joint, if it has joints */
+    uint32_t joint_box_count;
+    struct gn_targets *targets; /* or NULL */
 };
 
 static inline bool gn_geometry_has(const struct gn_geometry *geometry,
@@ -93,12 +132,19 @@ enum gn_cast_faces { GN_CAST_BOTH, GN_CAST_FRONT, GN_CAST_BACK, GN_CAST_AUTO, GN
 struct gn_item {
     uint32_t node, geometry, material;
     int32_t instance;     /* index into scene->instances, or -1 */
+    int32_t skin, morph;  /* indices into deformation.skins and .morphs, or -1 */
+    struct gn_strip rows; /* of a deformed one: of its skin, or of its own matrix */
     uint32_t batch;       /* equal for items that can share a call; ascending */
     bool casts, receives; /* gnomon_cast, gnomon_receive */
     bool casts_alpha;     /* gnomon_cast_alpha: blended, it casts a shadow by its alpha, dithered */
     uint8_t plane;        /* in which it receives planar shadows, from 1; 0: in none */
     enum gn_cast_faces cast_faces;
 };
+
+/* Its vertices are posed one by one, by texels of the pose. */
+static inline bool gn_item_is_deformed(const struct gn_item *item) {
+    return item->skin >= 0 || item->morph >= 0;
+}
 
 struct gn_node {
     const char *name; /* never NULL */
@@ -140,15 +186,18 @@ struct gn_camera {
     float near_m, far_m;  /* far 0: infinite */
 };
 
-enum gn_anim_path { GN_ANIM_TRANSLATION, GN_ANIM_ROTATION, GN_ANIM_SCALE };
+enum gn_anim_path { GN_ANIM_TRANSLATION, GN_ANIM_ROTATION, GN_ANIM_SCALE, GN_ANIM_WEIGHTS };
 enum gn_anim_interpolation { GN_ANIM_LINEAR, GN_ANIM_STEP, GN_ANIM_CUBIC };
 struct gn_channel {
     uint32_t node;
     enum gn_anim_path path;
     enum gn_anim_interpolation interpolation;
     uint32_t key_count;
+    uint32_t components;  /* 3, 4, or of WEIGHTS as many as the node's mesh has targets */
+    int32_t morph;        /* of WEIGHTS: index into deformation.morphs */
     const float *times_s; /* ascending, finite, >= 0 */
-    const float *values;  /* key_count x (3 or 4), x 3 for cubic (in-tangent, value, out-tangent) */
+    const float *values;  /* key_count x components, x 3 for cubic (in-tangents, values,
+                             out-tangents) */
 };
 struct gn_clip {
     const char *name;
@@ -181,6 +230,16 @@ struct gn_scene_animation {
     struct gn_clip *clips;
     struct gn_channel *channels; /* of all clips, clip by clip */
     uint32_t clip_count, channel_count;
+};
+struct gn_scene_deformation { /* skins and targets of meshes */
+    struct gn_skin *skins;
+    struct gn_joint *joints;
+    struct gn_morphed *morphs;
+    float *weights; /* as the file has them */
+    uint32_t skin_count, joint_count, morph_count, weight_count;
+    uint32_t width, height;         /* of the pose's texels; 0: nothing is deformed */
+    uint64_t delta_texels;          /* of all targets */
+    uint32_t column, column_height; /* of the loader: where the next strip goes */
 };
 /* Points that stand for all that is drawn: it lies within their convex hull, but for 2 % of its
  * radius. World space. */
@@ -216,6 +275,7 @@ struct gn_scene {
     uint32_t material_textures; /* of the material with most */
     struct gn_scene_pictures pictures;
     struct gn_scene_animation animation;
+    struct gn_scene_deformation deformation;
     struct gn_scene_environment environment;
     struct gn_scene_added added;
     struct gn_extent *extents; /* over the time of all clips that a pose plays: at its `clips` minus
@@ -301,6 +361,8 @@ void gn_scene_destroy(struct gn_scene *scene);
  * that is enough. */
 uint64_t gn_scene_image_bytes(const struct gn_image *image);
 uint64_t gn_scene_index_bytes(const struct gn_scene *scene);
+/* And of its targets, and of the texels of poses. */
+uint64_t gn_scene_deformation_bytes(const struct gn_scene *scene);
 /* Size of a vertex in GPU memory. */
 uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);
 

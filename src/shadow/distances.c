@@ -60,11 +60,11 @@ static void add_triangles(const struct gn_fitter *f, uint32_t item, const vec4 w
 /* The hull of the item's box and the frustum: faces of each by the other. */
 static void add_box(const struct gn_fitter *f, uint32_t item, const vec4 world[PLANES],
                     const vec4 depth, struct gn_distances *d) {
-    const struct gn_geometry *g = &f->pose->scene->geometries[f->pose->scene->items[item].geometry];
     struct gn_polygon polygon;
     vec3 corners[8];
     vec4 sides[6];
-    gn_box_corners(&g->box, (vec4 *)f->pose->items[item].world_from_item, corners);
+    gn_box_corners(&f->pose->items[item].box, (vec4 *)f->pose->items[item].world_from_item,
+                   corners);
     gn_box_planes(corners, sides);
     for (int i = 0; i < 12; i++) {
         gn_box_face(i < 6 ? corners : (vec3 *)f->eye->corners, i % 6, &polygon);
@@ -107,7 +107,8 @@ bool gn_distances_find(const struct gn_fitter *f, struct gn_distances *seen) {
         const struct gn_box *box = &f->pose->items[i].box_ws;
         if (gn_box_least(depth, box) >= seen->near_m && gn_box_most(depth, box) <= seen->far_m)
             continue;
-        if (scene->geometries[scene->items[i].geometry].index_count <= 3 * WALKED_TRIANGLES)
+        if (scene->geometries[scene->items[i].geometry].index_count <= 3 * WALKED_TRIANGLES &&
+            !gn_item_is_deformed(&scene->items[i]))
             add_triangles(f, i, planes, depth, seen);
         else
             add_box(f, i, planes, depth, seen);

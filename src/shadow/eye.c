@@ -69,9 +69,7 @@ void gn_item_triangle(const struct gn_pose *pose, uint32_t item, uint32_t index,
     const uint32_t *indices =
         scene->buffers.indices + scene->geometries[scene->items[item].geometry].first_index + index;
     out->count = 3;
-    for (int k = 0; k < 3; k++)
-        glm_mat4_mulv3(pose->items[item].world_from_item,
-                       scene->buffers.positions + 3 * (size_t)indices[k], 1.0f, out->at[k]);
+    for (int k = 0; k < 3; k++) gn_pose_corner(pose, item, indices[k], out->at[k]);
 }
 
 void gn_polygon_clip(struct gn_polygon *polygon, const vec4 plane) {

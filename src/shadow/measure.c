@@ -73,6 +73,7 @@ static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, u
         return;
     }
     mat4 light_from_item;
+    const bool deformed = gn_item_is_deformed(&scene->items[item]);
     glm_mat4_mul((vec4 *)f->tile->light_from_world, (vec4 *)f->pose->items[item].world_from_item,
                  light_from_item);
     for (uint32_t i = 0; i < g->index_count; i += 3) {
@@ -80,8 +81,12 @@ static void add_nearest(const struct gn_fitter *f, struct gn_shadow_region *r, u
         vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
         for (int k = 0; k < 3; k++) {
             vec3 p;
-            glm_mat4_mulv3(light_from_item, scene->buffers.positions + 3 * (size_t)indices[k], 1.0f,
-                           p);
+            if (deformed) {
+                gn_pose_corner(f->pose, item, indices[k], p);
+                glm_mat4_mulv3((vec4 *)f->tile->light_from_world, p, 1.0f, p);
+            } else
+                glm_mat4_mulv3(light_from_item, scene->buffers.positions + 3 * (size_t)indices[k],
+                               1.0f, p);
             glm_vec3_minv(low, p, low);
             glm_vec3_maxv(high, p, high);
         }
@@ -102,7 +107,7 @@ static struct gn_shadow_region measure_item(const struct gn_fitter *f, uint32_t 
     if (f->view->perspective && !gn_box_is_near(&posed->box_ws, f->view->light_ws, f->range_m))
         return r;
     vec3 corners[8];
-    gn_box_corners(&g->box, (vec4 *)posed->world_from_item, corners);
+    gn_box_corners(&posed->box, (vec4 *)posed->world_from_item, corners);
     if (!seen_only && gn_planes_hold(f->cone, f->cone_count, &posed->box_ws))
         for (int i = 0; i < 8; i++) add_point(f, &r, corners[i]);
     else if (g->index_count <= 3 * GN_EXACT_TRIANGLES)

@@ -216,7 +216,7 @@ static struct gn_shadow_region shadow_of(const struct planar *f, uint32_t item) 
     vec3 corners[8];
     const struct gn_box *box = &f->pose->items[item].box_ws;
     const float lowest = gn_box_least(f->plane, box), highest = gn_box_most(f->plane, box);
-    gn_box_corners(&geometry_of(f, item)->box, f->pose->items[item].world_from_item, corners);
+    gn_box_corners(&f->pose->items[item].box, f->pose->items[item].world_from_item, corners);
     for (const struct aim *aim = f->aims; aim < f->aims + f->aim_count; aim++) {
         vec4 *shadow_from_world = (vec4 *)aim->shadow_from_world;
         if (highest <= aim->low_m || lowest >= aim->high_m) continue;
@@ -258,7 +258,7 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
         const struct gn_geometry *g = geometry_of(f, i);
         if (g->index_count > 3 * GN_EXACT_TRIANGLES) {
             vec3 corners[8];
-            gn_box_corners(&g->box, f->pose->items[i].world_from_item, corners);
+            gn_box_corners(&f->pose->items[i].box, f->pose->items[i].world_from_item, corners);
             add_body(&r, plane_from_world, corners, planes, count);
             continue;
         }

@@ -64,10 +64,14 @@ void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
             struct gn_bvh_triangle *t = &triangles[count++];
             *t = (struct gn_bvh_triangle){
                 .item = i, .index = geometry->first_index + k, .flags = flags};
-            for (int c = 0; c < 3; c++)
-                place(posed->world_from_item,
-                      &scene->buffers.positions[3 * (size_t)scene->buffers.indices[t->index + c]],
-                      t->p[c]);
+            for (int c = 0; c < 3; c++) {
+                const uint32_t vertex = scene->buffers.indices[t->index + c];
+                if (gn_item_is_deformed(&scene->items[i]))
+                    gn_pose_vertex(pose, i, vertex, t->p[c]);
+                else
+                    place(posed->world_from_item, &scene->buffers.positions[3 * (size_t)vertex],
+                          t->p[c]);
+            }
         }
     }
     *rays = (struct gn_raycast){.scene = scene};

@@ -268,13 +268,29 @@ static void seed_compressed(struct gn_maker *m) {
                  "{'attributes':{'POSITION':3},'indices':6}]}]");
 }
 
+static void seed_posed(struct gn_maker *m) {
+    static const float times[] = {0, 1}, turns[] = {0, 0, 0, 1, 0, 0, .6f, .8f};
+    static const float weights[] = {0, 0, 1, -1};
+    gn_maker_posed_square(m);
+    const int input = gn_maker_accessor(m, "SCALAR", 5126, 2, times, sizeof times, NULL);
+    const int turn = gn_maker_accessor(m, "VEC4", 5126, 2, turns, sizeof turns, NULL);
+    const int weight = gn_maker_accessor(m, "SCALAR", 5126, 4, weights, sizeof weights, NULL);
+    char json[300];
+    snprintf(json, sizeof json,
+             "{'samplers':[{'input':%d,'output':%d},{'input':%d,'output':%d}],'channels':["
+             "{'sampler':0,'target':{'node':2,'path':'rotation'}},"
+             "{'sampler':1,'target':{'node':0,'path':'weights'}}]}",
+             input, turn, input, weight);
+    gn_maker_add(m, "animations", json);
+}
+
 /* Everything that can stand beside each other, as .gltf with a data URI. */
 static void seed_text(struct gn_maker *m) { seed_rich(m); }
 
 struct gn_made gn_seed_make(int number) {
     static void (*const make[GN_SEED_COUNT])(struct gn_maker *) = {
         seed_plain,     seed_rich,      seed_lights,     seed_animated, seed_sparse,
-        seed_quantized, seed_instanced, seed_compressed, seed_text};
+        seed_quantized, seed_instanced, seed_compressed, seed_posed,    seed_text};
     struct gn_maker maker;
     gn_maker_init(&maker);
     make[number](&maker);

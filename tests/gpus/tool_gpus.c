@@ -3,8 +3,7 @@
  * Made for drivers behind which is no GPU (README.md): they compile and execute nothing, so nothing
  * that is drawn is looked at, and what the GPU claims is not proved. Programs come out of plans
  * that the frame builder makes of small scenes, with every technique, light and encoding that there
- * is in the tables: so a new row comes along by itself. What is tried
- * with one kind of light only is so with another one for another N.
+ * is in the tables. What is tried with one kind of light only is so with another one for another N.
  * Prints, separated by tabs,
  *   GPU renderer version    COST hash instructions spills stage program    FAIL what    DONE counts
  * and ends with 0, 1 (something failed) or 2 (nothing could be tried). COST lines of an earlier run

@@ -32,8 +32,6 @@ left_out() {
 check_drawn() {
     drawn=$((drawn + 1))
     is_blank "$folder/picture.pfm" && complain "$file: the picture has one colour"
-    left_out '"skins":[' skins
-    left_out '"targets":[' 'morph targets'
     left_out '"KHR_materials_variants":{"variants"' 'material variants'
 }
 

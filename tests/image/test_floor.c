@@ -76,8 +76,8 @@ static double wrong_share(const struct gn_picture *truth, const struct gn_pictur
     return wrong / (double)all;
 }
 
-/* Lit pixels inside what is dark, edges of the dark excluded: a seam where the model stands would be
- * a row of them between its dark side and its shadow. */
+/* Lit pixels inside what is dark, edges of the dark excluded: a seam where the model stands would
+ * be a row of them between its dark side and its shadow. */
 static uint32_t seam_pixels(const struct gn_picture *truth, const struct gn_picture *shot) {
     uint32_t lit = 0;
     for (int y = 1; y < truth->height_px - 1; y++)

@@ -122,6 +122,9 @@ static bool write(const char *folder, const char *name, const struct gn_program_
         if (key->lights[0].slide)
             snprintf(head + strlen(head), sizeof head - strlen(head),
                      "//@ tex u_slide_0 SRGB8A8\n");
+        if (strstr(rest, "uniform sampler2D u_pose;"))
+            snprintf(head + strlen(head), sizeof head - strlen(head),
+                     "//@ tex u_pose RGBA32F\n//@ tex u_deltas RGBA32F\n");
         size_t size = strlen(head) + strlen(rest);
         char *whole = malloc(size + 1);
         if (!whole) abort();
@@ -197,6 +200,10 @@ int main(int argc, char **argv) {
         {"pcf", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-normal-map",
          lit(FULL | GN_FEATURE(NORMAL_TEXTURE), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"pcf-skin", lit(FULL | GN_FEATURE(SKIN), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"pcf-skin-8", lit(FULL | GN_FEATURE(SKIN_8), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"pcf-morph", lit(FULL | GN_FEATURE(MORPH), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"map-depth-skin", caster(GN_PROGRAM_DEPTH, GN_FEATURE(SKIN), GN_ENCODING_DEPTH)},
         {"pcf-diffuse", lit(DIFFUSE, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-encode", lit(FULL | GN_FEATURE(ENCODE_SRGB), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-neutral", lit(FULL | GN_FEATURE(TONE_NEUTRAL), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},

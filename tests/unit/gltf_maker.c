@@ -82,6 +82,34 @@ void gn_maker_square(struct gn_maker *maker) {
     gn_maker_set(maker, "scene", "0");
 }
 
+void gn_maker_posed_square(struct gn_maker *maker) {
+    static const float binds[2][16] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 1},
+                                       {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1}};
+    static const float lift[] = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
+    static const float nudge[] = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    uint8_t joints[4][4] = {{0}};
+    float weights[4][4] = {{0}}, corners[4][3];
+    gn_maker_square(maker);
+    memcpy(corners, maker->bin, sizeof corners);
+    for (int v = 0; v < 4; v++) {
+        joints[v][0] = corners[v][0] > 0;
+        weights[v][0] = 1;
+    }
+    gn_maker_accessor(maker, "VEC4", 5121, 4, joints, sizeof joints, NULL);
+    gn_maker_accessor(maker, "VEC4", 5126, 4, weights, sizeof weights, NULL);
+    gn_maker_accessor(maker, "VEC3", 5126, 4, lift, sizeof lift, NULL);
+    gn_maker_accessor(maker, "VEC3", 5126, 4, nudge, sizeof nudge, NULL);
+    gn_maker_accessor(maker, "MAT4", 5126, 2, binds, sizeof binds, NULL);
+    gn_maker_set(maker, "meshes",
+                 "[{'weights':[0,0],'primitives':[{'indices':1,'attributes':{'POSITION':0,"
+                 "'JOINTS_0':2,'WEIGHTS_0':3},'targets':[{'POSITION':4},{'POSITION':5}]}]}]");
+    gn_maker_set(maker, "skins", "[{'joints':[1,2],'inverseBindMatrices':6}]");
+    gn_maker_set(maker, "nodes",
+                 "[{'mesh':0,'skin':0,'translation':[9,9,9]},"
+                 "{'children':[2],'translation':[-1,0,0]},{'translation':[2,0,0]}]");
+    gn_maker_set(maker, "scenes", "[{'nodes':[0,1]}]");
+}
+
 void gn_maker_cube(struct gn_maker *maker) {
     float positions[72];
     uint16_t indices[36];

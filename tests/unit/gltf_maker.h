@@ -35,6 +35,10 @@ int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, s
 /* A 2 x 2 square in y = 0, facing up, as mesh 0 (accessors 0 and 1, no normals), node 0 with it,
  * and a scene. */
 void gn_maker_square(struct gn_maker *maker);
+/* The square with a skin and two targets: joint 0 (node 1) has the corners at x = -1, joint 1 (its
+ * child, node 2, 2 to the right) those at x = 1; the targets lift all corners by 1, and move the
+ * first by 1 along x. Accessor 2: joints, 3: weights, 4 and 5: targets, 6: bind matrices. */
+void gn_maker_posed_square(struct gn_maker *maker);
 /* A cube from -1 to 1 as the next mesh: closed, flat normals left to the loader. */
 void gn_maker_cube(struct gn_maker *maker);
 

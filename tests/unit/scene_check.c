@@ -53,6 +53,64 @@ static const char *check_geometry(const struct gn_scene *scene,
     return NULL;
 }
 
+static const char *check_joints(const struct gn_scene *scene, const struct gn_geometry *geometry) {
+    const bool eight = gn_geometry_has(geometry, GN_ATTRIBUTE_JOINTS1);
+    for (uint32_t v = geometry->first_vertex;
+         v < geometry->first_vertex + geometry->vertex_count && geometry->joint_box_count; v++) {
+        uint32_t sum = 0;
+        for (size_t i = 0; i < 4; i++)
+            sum += scene->buffers.weights0[4 * (size_t)v + i] +
+                   (eight ? scene->buffers.weights1[4 * (size_t)v + i] : 0u);
+        NEED(sum == 65535);
+    }
+    return NULL;
+}
+
+static const char *check_strip(const struct gn_scene *scene, const struct gn_strip *strip,
+                               uint32_t rows) {
+    NEED((uint32_t)strip->x + GN_STRIP_WIDTH <= scene->deformation.width);
+    NEED(strip->y + rows <= scene->deformation.height);
+    return NULL;
+}
+
+static const char *check_deformation(const struct gn_scene *scene) {
+    const struct gn_scene_deformation *d = &scene->deformation;
+    const char *wrong = NULL;
+    for (uint32_t i = 0; i < d->skin_count && !wrong; i++) {
+        NEED(d->skins[i].first_joint + d->skins[i].joint_count <= d->joint_count);
+        wrong = check_strip(scene, &d->skins[i].rows, d->skins[i].joint_count);
+    }
+    for (uint32_t i = 0; i < d->joint_count; i++) {
+        NEED(d->joints[i].node >= -1 && d->joints[i].node < (int64_t)scene->node_count);
+        NEED(finite_all(d->joints[i].joint_from_mesh[0], 16));
+    }
+    for (uint32_t i = 0; i < d->morph_count && !wrong; i++) {
+        NEED(d->morphs[i].first_weight + d->morphs[i].weight_count <= d->weight_count);
+        wrong = check_strip(scene, &d->morphs[i].list, d->morphs[i].weight_count);
+    }
+    NEED(finite_all(d->weights, d->weight_count));
+    for (uint32_t i = 0; i < scene->item_count && !wrong; i++) {
+        const struct gn_item *item = &scene->items[i];
+        const struct gn_geometry *geometry = &scene->geometries[item->geometry];
+        NEED(item->skin >= -1 && item->skin < (int64_t)d->skin_count);
+        NEED(item->morph >= -1 && item->morph < (int64_t)d->morph_count);
+        NEED(item->morph < 0 || (geometry->targets &&
+                                 geometry->targets->count == d->morphs[item->morph].weight_count));
+        for (uint32_t k = 0; k < geometry->joint_box_count && item->skin >= 0; k++)
+            NEED(geometry->joint_boxes[k].joint < d->skins[item->skin].joint_count);
+        if (gn_item_is_deformed(item)) wrong = check_strip(scene, &item->rows, 1);
+    }
+    for (uint32_t i = 0; i < scene->geometry_count && !wrong; i++) {
+        const struct gn_targets *t = scene->geometries[i].targets;
+        wrong = check_joints(scene, &scene->geometries[i]);
+        if (!t) continue;
+        const uint64_t texels = (uint64_t)t->count * t->parts * scene->geometries[i].vertex_count;
+        NEED(t->first_texel + texels <= d->delta_texels);
+        NEED(finite_all(t->deltas[0], 4 * texels));
+    }
+    return wrong;
+}
+
 static const char *check_vertices(const struct gn_scene *scene) {
     size_t n = scene->buffers.vertex_count;
     NEED(finite_all(scene->buffers.positions, 3 * n));
@@ -169,10 +227,10 @@ static const char *check_clips(const struct gn_scene *scene) {
     }
     for (uint32_t c = 0; c < scene->animation.channel_count; c++) {
         const struct gn_channel *channel = &scene->animation.channels[c];
-        size_t per_key = (channel->path == GN_ANIM_ROTATION ? 4 : 3) *
-                         (size_t)(channel->interpolation == GN_ANIM_CUBIC ? 3 : 1);
+        size_t per_key =
+            channel->components * (size_t)(channel->interpolation == GN_ANIM_CUBIC ? 3 : 1);
         NEED(channel->node < scene->node_count && channel->key_count > 0);
-        NEED(!scene->nodes[channel->node].has_matrix);
+        NEED(channel->path == GN_ANIM_WEIGHTS || !scene->nodes[channel->node].has_matrix);
         NEED(finite_all(channel->times_s, channel->key_count));
         NEED(finite_all(channel->values, channel->key_count * per_key));
         for (uint32_t k = 1; k < channel->key_count; k++)
@@ -218,7 +276,8 @@ static const char *check_poses(const struct gn_scene *scene) {
 
 const char *gn_scene_check(const struct gn_scene *scene) {
     static const char *(*const checks[])(const struct gn_scene *) = {
-        check_vertices, check_looks, check_items, check_nodes, check_clips, check_poses};
+        check_vertices, check_looks,       check_items, check_nodes,
+        check_clips,    check_deformation, check_poses};
     for (size_t i = 0; i < sizeof checks / sizeof checks[0]; i++) {
         const char *wrong = checks[i](scene);
         if (wrong) return wrong;

@@ -189,7 +189,7 @@ static void test_unusable_channels_are_left_out(void **state) {
     assert_string_equal(warnings.text[0],
                         "t: animations[0].samplers[0]: input and output do not fit each other; "
                         "channel not played");
-    assert_string_equal(warnings.text[2], "t: shown without morph targets: not supported yet");
+    assert_int_equal(warnings.count, 2); /* the third has nothing to change */
 }
 
 static void test_a_matrix_that_is_animated(void **state) {

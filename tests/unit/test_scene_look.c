@@ -335,11 +335,11 @@ static void test_later_work_is_named_once(void **state) {
     gn_maker_set(&maker, "textures", "[{'extensions':{'KHR_texture_basisu':{'source':0}}}]");
     gn_maker_set(&maker, "materials",
                  "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]");
-    gn_maker_set(&maker, "nodes", "[{'mesh':0,'skin':0}]");
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_materials_variants']");
     struct gn_scene *scene = load();
     assert_int_equal(warnings.count, 1);
     assert_string_equal(warnings.text[0],
-                        "t: shown without skins, KTX2 pictures: not supported yet");
+                        "t: shown without material variants, KTX2 pictures: not supported yet");
     gn_scene_destroy(scene);
 }
 

@@ -33,7 +33,8 @@ static bool read_sampler(struct gn_gltf *g, const struct gn_at *at, struct sampl
 }
 
 /* Into the scene's memory. NULL: some are not finite, or the load failed. */
-static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t components) {
+static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a) {
+    const size_t components = a->components;
     float *values =
         gn_gltf_alloc(g, g->memory.scene, (uint64_t)a->count * components, sizeof *values);
     if (!values) return NULL;
@@ -51,7 +52,7 @@ static const float *read_times(struct gn_gltf *g, const struct sampler *sampler)
     const struct gn_accessor *a = sampler->input;
     if (a->components != 1) return NULL;
     if (g->file.key_times[sampler->input_index]) return g->file.key_times[sampler->input_index];
-    const float *times = read_values(g, a, 1);
+    const float *times = read_values(g, a);
     if (!times) return NULL;
     for (size_t i = 0; i < a->count; i++)
         if (!(times[i] >= (i > 0 ? times[i - 1] : 0) && times[i] <= 1e9f)) return NULL;
@@ -65,19 +66,18 @@ static const float *read_times(struct gn_gltf *g, const struct sampler *sampler)
 static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_anim_path *path) {
     static const char *const names[] = {[GN_ANIM_TRANSLATION] = "translation",
                                         [GN_ANIM_ROTATION] = "rotation",
-                                        [GN_ANIM_SCALE] = "scale"};
+                                        [GN_ANIM_SCALE] = "scale",
+                                        [GN_ANIM_WEIGHTS] = "weights"};
     struct gn_at target = gn_at_object(g, at, "target");
     int32_t node = gn_at_ref(g, &target, "node", g->file.node_count, "nodes");
     const char *name = gn_at_text(g, &target, "path");
     if (g->failed || !name) return -1;
-    int word = gn_json_word(gn_at_any(&target, "path").json, names, 3);
+    int word = gn_json_word(gn_at_any(&target, "path").json, names, 4);
     if (word >= 0) {
         *path = (enum gn_anim_path)word;
         return node < 0 ? -1 : g->to_scene.node[node];
     }
-    if (strcmp(name, "weights") == 0)
-        g->is_missing[GN_MISSING_MORPHS] = true;
-    else if (strcmp(name, "pointer") == 0)
+    if (strcmp(name, "pointer") == 0)
         g->is_missing[GN_MISSING_POINTERS] = true;
     else
         gn_gltf_warn(g, &target, "path '%.20s' is unknown; ignored", name);
@@ -114,9 +114,15 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
     if (index < 0) return gn_gltf_fail(g, &place, "missing");
     struct gn_at sampler_at = gn_at_item(g, samplers, (size_t)index);
     if (g->failed || !read_sampler(g, &sampler_at, &sampler)) return false;
-    size_t components = channel->path == GN_ANIM_ROTATION ? 4 : 3;
-    size_t per_key = sampler.interpolation == GN_ANIM_CUBIC ? 3 : 1;
-    bool fits = sampler.output->components == components && sampler.output->count % per_key == 0 &&
+    const bool of_weights = channel->path == GN_ANIM_WEIGHTS;
+    channel->morph = of_weights ? g->placed[node].morph : -1;
+    if (of_weights && channel->morph < 0) return false; /* its mesh has no targets */
+    channel->components = channel->path == GN_ANIM_ROTATION ? 4 : 3;
+    if (of_weights) channel->components = g->scene->deformation.morphs[channel->morph].weight_count;
+    const size_t elements = of_weights ? channel->components : 1; /* of a value */
+    const size_t per_key = elements * (sampler.interpolation == GN_ANIM_CUBIC ? 3 : 1);
+    bool fits = sampler.output->components * elements == channel->components &&
+                sampler.output->count % per_key == 0 &&
                 sampler.output->count / per_key == sampler.input->count;
     g->key_total += fits ? sampler.output->count : 0;
     if (g->key_total > g->limits.keys)
@@ -126,7 +132,7 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
     channel->interpolation = sampler.interpolation;
     channel->key_count = (uint32_t)sampler.input->count;
     channel->times_s = fits ? read_times(g, &sampler) : NULL;
-    channel->values = channel->times_s ? read_values(g, sampler.output, components) : NULL;
+    channel->values = channel->times_s ? read_values(g, sampler.output) : NULL;
     if (g->failed) return false;
     if (!channel->values) {
         gn_gltf_warn(g, &sampler_at, "%s; channel not played",
@@ -135,7 +141,7 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
                                          : "values that are not finite");
         return false;
     }
-    use_trs(&g->scene->nodes[node]);
+    if (!of_weights) use_trs(&g->scene->nodes[node]);
     return true;
 }
 

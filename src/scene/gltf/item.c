@@ -11,13 +11,14 @@ static uint32_t copies_of(const struct gn_placed *placed) {
     return placed->instance_count > 0 ? placed->instance_count : 1;
 }
 
-static void add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitive *primitive) {
+static bool add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitive *primitive) {
     struct gn_scene *scene = g->scene;
     const struct gn_placed *placed = &g->placed[node];
     uint32_t fallback = (uint32_t)g->file.material_count;
     for (uint32_t k = 0; k < copies_of(placed); k++) {
+        struct gn_item *item = &scene->items[scene->item_count++];
         scene->triangle_count += scene->geometries[primitive->geometry].index_count / 3;
-        scene->items[scene->item_count++] = (struct gn_item){
+        *item = (struct gn_item){
             .node = node,
             .geometry = primitive->geometry,
             .material = primitive->material < 0 ? fallback : (uint32_t)primitive->material,
@@ -27,7 +28,10 @@ static void add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitiv
             .receives = placed->receives,
             .cast_faces = placed->cast_faces,
         };
+        if (!gn_gltf_deform_item(g, item)) return false;
+        if (item->skin >= 0) break; /* its node's transform is not used, nor those of copies */
     }
+    return true;
 }
 
 bool gn_gltf_items(struct gn_gltf *g) {
@@ -55,7 +59,9 @@ bool gn_gltf_items(struct gn_gltf *g) {
             g->placed[i].mesh >= 0 ? &g->file.meshes[g->placed[i].mesh] : NULL;
         for (uint32_t k = 0; mesh && k < mesh->primitive_count; k++) {
             const struct gn_primitive *primitive = &g->primitives.list[mesh->first_primitive + k];
-            if (scene->geometries[primitive->geometry].index_count > 0) add_items(g, i, primitive);
+            if (scene->geometries[primitive->geometry].index_count > 0 &&
+                !add_items(g, i, primitive))
+                return false;
         }
     }
     if (scene->item_count > 0) return true;

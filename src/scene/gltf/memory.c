@@ -23,6 +23,14 @@ void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, s
     return memory;
 }
 
+bool gn_gltf_count(struct gn_gltf *g, uint64_t bytes) {
+    if (bytes > gn_gltf_room(g))
+        return gn_gltf_fail(g, NULL, "out of memory, or over the limit memory_mb=%" PRIu64,
+                            g->limits.memory_mb);
+    g->memory.other_bytes += bytes;
+    return !g->failed;
+}
+
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
     size_t size = text ? strlen(text) + 1 : 1;
     char *copy = gn_gltf_alloc(g, g->memory.scene, size, 1);

@@ -17,10 +17,25 @@ struct reader {
     uint32_t shape_count;
 };
 
+/* Joints are read where a node has a skin for them, and with their weights only; the second four
+ * with the first. */
+static void choose_joints(struct gn_gltf *g, const struct gn_at *primitive, bool with_skin,
+                          int32_t *out) {
+    bool use = with_skin;
+    for (int set = 0; set < 2; set++) {
+        int32_t *joints = &out[GN_ATTRIBUTE_JOINTS0 + 2 * set];
+        int32_t *weights = &out[GN_ATTRIBUTE_WEIGHTS0 + 2 * set];
+        use &= *joints >= 0 && *weights >= 0;
+        if (!use) *joints = *weights = -1;
+        if (with_skin && !use && set == 0)
+            gn_gltf_warn(g, primitive, "has no JOINTS_0 and WEIGHTS_0; shown without its skin");
+    }
+}
+
 /* The number of vertices, or 0: failed, or nothing to show (with a warning). Tangents are read
  * where there are normals and a normal map needs them. */
 static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, bool with_tangents,
-                              const uint64_t uv_sets[GN_UV_SETS], int32_t *out) {
+                              bool with_skin, const uint64_t uv_sets[GN_UV_SETS], int32_t *out) {
     struct gn_at attributes = gn_at_object(g, primitive, "attributes");
     const char *semantics[GN_ATTRIBUTE_COUNT];
     char uv_names[GN_UV_SETS][32];
@@ -32,6 +47,7 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         out[i] = gn_at_ref(g, &attributes, semantics[i], g->file.accessor_count, "accessors");
     if (!with_tangents || out[GN_ATTRIBUTE_NORMAL] < 0) out[GN_ATTRIBUTE_TANGENT] = -1;
+    choose_joints(g, primitive, with_skin, out);
     struct gn_at draco = gn_at_extension(g, primitive, "extensions.KHR_draco_mesh_compression");
     const struct gn_accessor *positions = gn_gltf_accessor(g, out[GN_ATTRIBUTE_POSITION]);
     if (g->failed) return 0;
@@ -77,8 +93,9 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive,
     }
     shape->mode = (int32_t)mode;
     shape->indices = gn_at_ref(g, primitive, "indices", g->file.accessor_count, "accessors");
-    uint64_t count = read_attributes(g, primitive, shape->tangents != GN_TANGENTS_NONE, uv_sets,
-                                     shape->attribute);
+    uint64_t count =
+        read_attributes(g, primitive, shape->tangents != GN_TANGENTS_NONE,
+                        g->file.meshes[shape->mesh].skinned, uv_sets, shape->attribute);
     if (count == 0) return false;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
     if (g->failed) return false;
@@ -114,13 +131,31 @@ static void choose_tangents(struct gn_gltf *g, const struct gn_at *primitive,
 
 /* ---- primitives ---- */
 
+/* Counts the targets of a primitive: all of a mesh that have any have the same number. */
+static bool read_targets(const struct reader *reader, const struct gn_at *primitive,
+                         struct gn_shape *shape) {
+    struct gn_gltf *g = reader->g;
+    struct gn_at targets = gn_at_array(g, primitive, "targets");
+    const size_t count = gn_at_size(&targets);
+    struct gn_mesh *mesh = &g->file.meshes[shape->mesh];
+    if (g->failed || count == 0) return !g->failed;
+    if (count > GN_JOINTS_MAX)
+        return gn_gltf_fail(g, &targets, "%zu are more than %d morph targets", count,
+                            GN_JOINTS_MAX);
+    if (mesh->target_count > 0 && mesh->target_count != count)
+        return gn_gltf_fail(g, &targets, "%zu, but another primitive has %" PRIu32, count,
+                            mesh->target_count);
+    mesh->target_count = (uint32_t)count;
+    shape->targets = (int32_t)reader->shape_count + 1;
+    return true;
+}
+
 static void read_primitive(struct reader *reader, const struct gn_at *primitive, uint32_t mesh,
                            uint32_t index) {
     struct gn_gltf *g = reader->g;
     struct gn_shape shape = {.mesh = mesh, .primitive = index, .vertices = UINT32_MAX};
     int32_t material = gn_at_ref(g, primitive, "material", g->file.material_count, "materials");
-    if (gn_at_size(&(struct gn_at){.json = json_object_get(primitive->json, "targets")}) > 0)
-        g->is_missing[GN_MISSING_MORPHS] = true;
+    if (!read_targets(reader, primitive, &shape)) return;
     shape.tangents = gn_gltf_tangents(g, material);
     uint64_t uv_sets[GN_UV_SETS];
     gn_gltf_uv_sets(g, material, uv_sets);
@@ -166,13 +201,13 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
         gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.vertices);
     if (g->failed) return false;
     reader.shapes = (struct gn_table){.stride = sizeof *g->primitives.shapes,
-                                      .key_size = (GN_ATTRIBUTE_COUNT + 3) * sizeof(int32_t),
+                                      .key_size = (GN_ATTRIBUTE_COUNT + 4) * sizeof(int32_t),
                                       .keys = (const char *)g->primitives.shapes};
     reader.vertices = (struct gn_table){.stride = sizeof *g->primitives.vertices,
                                         .key_size = GN_ATTRIBUTE_COUNT * sizeof(int32_t),
                                         .keys = (const char *)g->primitives.vertices};
-    _Static_assert(
-        offsetof(struct gn_shape, tangents) == (GN_ATTRIBUTE_COUNT + 2) * sizeof(int32_t), "key");
+    _Static_assert(offsetof(struct gn_shape, targets) == (GN_ATTRIBUTE_COUNT + 3) * sizeof(int32_t),
+                   "key");
     if (!gn_table_init(g, &reader.shapes, primitives) ||
         !gn_table_init(g, &reader.vertices, primitives))
         return false;

@@ -138,7 +138,9 @@ static void add_tree(struct tree *tree, int32_t listed, int32_t *roots) {
         placed->mesh = gn_at_ref(g, &at, "mesh", g->file.mesh_count, "meshes");
         if (placed->bare) placed->mesh = -1;
         if (placed->mesh >= 0) g->file.meshes[placed->mesh].used = true;
-        if (gn_at_any(&at, "skin").json && !placed->bare) g->is_missing[GN_MISSING_SKINS] = true;
+        placed->skin = gn_at_ref(g, &at, "skin", g->file.skin_count, "skins");
+        placed->morph = -1;
+        if (placed->mesh >= 0 && placed->skin >= 0) g->file.meshes[placed->mesh].skinned = true;
         gn_extras_node(g, &at, placed);
         push_children(tree, source);
     }
@@ -184,7 +186,8 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     struct tree tree = {.g = g, .array = gn_at_array(g, &root, "nodes")};
     tree.count = gn_at_size(&tree.array);
     if (g->failed) return false;
-    struct gn_at meshes = gn_at_array(g, &root, "meshes");
+    struct gn_at meshes = gn_at_array(g, &root, "meshes"), skins = gn_at_array(g, &root, "skins");
+    g->file.skin_count = gn_at_size(&skins);
     g->file.mesh_count = gn_at_size(&meshes);
     g->file.node_count = tree.count;
     g->file.meshes = gn_gltf_alloc(g, &g->memory.load, g->file.mesh_count, sizeof *g->file.meshes);

@@ -1,0 +1,351 @@
+/* Skins and morph targets: what the loader makes of them, and where the pose has each vertex. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene/pose.h"
+#include "unit/scene_help.h"
+
+static struct gn_scene *scene;
+static struct gn_pose pose;
+
+static int start(void **state) {
+    (void)state;
+    memset(&warnings, 0, sizeof warnings);
+    gn_maker_init(&maker);
+    gn_maker_posed_square(&maker);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+    scene = NULL;
+    return 0;
+}
+
+static void open_scene(int clips) {
+    scene = load();
+    gn_pose_init(&pose, scene, clips);
+}
+
+static void set_in(const char *array, size_t index, const char *key, const char *json) {
+    json_t *object = json_array_get(json_object_get(maker.root, array), index);
+    gn_maker_set(&maker, "scratch", json);
+    json_object_set(object, key, json_object_get(maker.root, "scratch"));
+    json_object_del(maker.root, "scratch");
+}
+
+/* The vertex of an item that the file has at x, z. */
+static uint32_t vertex_at(uint32_t item, float x, float z) {
+    const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
+    for (uint32_t v = g->first_vertex; v < g->first_vertex + g->vertex_count; v++)
+        if (scene->buffers.positions[3 * v] == x && scene->buffers.positions[3 * v + 2] == z)
+            return v;
+    fail_msg("no vertex at %g %g", (double)x, (double)z);
+    return 0;
+}
+
+static void assert_posed(uint32_t item, float x, float z, double px, double py, double pz) {
+    double p[3];
+    gn_pose_vertex(&pose, item, vertex_at(item, x, z), p);
+    if (fabs(p[0] - px) > 1e-5 || fabs(p[1] - py) > 1e-5 || fabs(p[2] - pz) > 1e-5)
+        fail_msg("(%g %g %g), not (%g %g %g)", p[0], p[1], p[2], px, py, pz);
+}
+
+static void animate(const char *path, int node, const float *values, size_t count, const char *type,
+                    const char *how) {
+    static const float times[] = {0, 1};
+    char json[300];
+    const int input = gn_maker_accessor(&maker, "SCALAR", 5126, 2, times, sizeof times, NULL);
+    const size_t width = strcmp(type, "SCALAR") == 0 ? 1 : type[3] == '4' ? 4 : 3;
+    const int output =
+        gn_maker_accessor(&maker, type, 5126, count / width, values, count * sizeof *values, NULL);
+    snprintf(json, sizeof json,
+             "{'samplers':[{'input':%d,'output':%d,'interpolation':'%s'}],'channels':[{'sampler':0,"
+             "'target':{'node':%d,'path':'%s'}}]}",
+             input, output, how, node, path);
+    gn_maker_add(&maker, "animations", json);
+}
+
+static void test_vertices_follow_their_joints(void **state) {
+    (void)state;
+    /* joint 1 turns by 90 degrees about y within its second: x goes to -z */
+    static const float turn[] = {0, 0, 0, 1, 0, .70710678f, 0, .70710678f};
+    animate("rotation", 2, turn, 8, "VEC4", "LINEAR");
+    open_scene(0);
+    assert_int_equal(scene->deformation.skin_count, 1);
+    assert_posed(0, 1, 1, 1, 0, 1); /* as bound; the node's own place is not used */
+    gn_pose_step(&pose, 999999999);
+    assert_posed(0, -1, 1, -1, 0, 1);
+    assert_posed(0, 1, 1, 2, 0, 0); /* 1 before its joint at x = 1 */
+    assert_true(pose.animated && pose.items[0].moves);
+}
+
+static void test_a_vertex_lies_between_its_joints(void **state) {
+    (void)state;
+    static const float weights[] = {3, 1, 0, 0, 3, 1, 0, 0, 3, 1, 0, 0, 3, 1, 0, 0};
+    static const uint8_t joints[] = {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+    char json[200];
+    const int w = gn_maker_accessor(&maker, "VEC4", 5126, 4, weights, sizeof weights, NULL);
+    const int j = gn_maker_accessor(&maker, "VEC4", 5121, 4, joints, sizeof joints, NULL);
+    snprintf(json, sizeof json,
+             "[{'primitives':[{'indices':1,'attributes':{'POSITION':0,'JOINTS_0':%d,"
+             "'WEIGHTS_0':%d}}]}]",
+             j, w);
+    gn_maker_set(&maker, "meshes", json);
+    set_in("nodes", 2, "translation", "[2,4,0]");
+    open_scene(GN_POSE_NONE);
+    double p[3];
+    gn_pose_vertex(&pose, 0, vertex_at(0, 1, 1), p);
+    assert_true(fabs(p[1] - 1) < 1e-4); /* a quarter of 4 */
+}
+
+static void test_weights_that_are_none(void **state) {
+    (void)state;
+    static const float weights[] = {0, 0, 0, 0, NAN, 1, 0, 0, -2, 1, 0, 0, INFINITY, 1, 0, 0};
+    static const uint8_t joints[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+    char json[200];
+    const int w = gn_maker_accessor(&maker, "VEC4", 5126, 4, weights, sizeof weights, NULL);
+    const int j = gn_maker_accessor(&maker, "VEC4", 5121, 4, joints, sizeof joints, NULL);
+    snprintf(json, sizeof json,
+             "[{'primitives':[{'indices':1,'attributes':{'POSITION':0,'JOINTS_0':%d,"
+             "'WEIGHTS_0':%d}}]}]",
+             j, w);
+    gn_maker_set(&maker, "meshes", json);
+    set_in("nodes", 2, "translation", "[2,4,0]");
+    open_scene(GN_POSE_NONE);
+    for (int i = 0; i < 4; i++) { /* the first joint of the first, joint 1 of all others */
+        double p[3];
+        gn_pose_vertex(&pose, 0, vertex_at(0, i & 1 ? 1 : -1, i & 2 ? 1 : -1), p);
+        assert_true(fabs(p[1] - 4) < 1e-4);
+    }
+}
+
+static void test_one_mesh_in_two_poses(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "skins", "[{'joints':[1,2],'inverseBindMatrices':6},{'joints':[4,4]}]");
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':0,'skin':0},{'children':[2],'translation':[-1,0,0]},"
+                 "{'translation':[2,0,0]},{'mesh':0,'skin':1},{'translation':[0,7,0]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,3,4]}]");
+    open_scene(GN_POSE_NONE);
+    assert_int_equal(scene->geometry_count, 1);
+    assert_int_equal(scene->item_count, 2);
+    assert_int_equal(scene->items[0].batch, scene->items[1].batch);
+    const uint32_t second = scene->items[1].skin == 1;
+    assert_posed(second, 1, 1, 1, 7, 1);
+    assert_posed(1 - second, 1, 1, 1, 0, 1);
+    assert_true(pose.items[0].hash != pose.items[1].hash);
+}
+
+static void test_bounds_hold_all_vertices(void **state) {
+    (void)state;
+    static const float turn[] = {0, 0, 0, 1, 0, 0, .70710678f, .70710678f};
+    static const float weights[] = {0, 0, 1.5f, -1};
+    animate("rotation", 2, turn, 8, "VEC4", "LINEAR");
+    animate("weights", 0, weights, 4, "SCALAR", "LINEAR");
+    open_scene(GN_POSE_DEFAULT);
+    uint64_t last = 0;
+    for (int i = 0; i < 20; i++) {
+        gn_pose_step(&pose, i * INT64_C(50000000));
+        const struct gn_box *box = &pose.items[0].box_ws;
+        for (uint32_t v = 0; v < scene->geometries[0].vertex_count; v++) {
+            double p[3];
+            gn_pose_vertex(&pose, 0, scene->geometries[0].first_vertex + v, p);
+            for (int k = 0; k < 3; k++)
+                assert_true(p[k] > (double)box->min[k] - 1e-5 && p[k] < (double)box->max[k] + 1e-5);
+        }
+        assert_true(pose.items[0].hash != last);
+        last = pose.items[0].hash;
+        gn_pose_step(&pose, i * INT64_C(50000000));
+        assert_true(pose.items[0].hash == last);
+    }
+}
+
+static void test_weights_of_the_mesh_and_of_the_node(void **state) {
+    (void)state;
+    set_in("meshes", 0, "weights", "[0.5,0]");
+    open_scene(GN_POSE_NONE);
+    assert_posed(0, 1, 1, 1, .5, 1);
+    end(NULL);
+    start(NULL);
+    set_in("meshes", 0, "weights", "[0.5,0]");
+    set_in("nodes", 0, "weights", "[2,0]");
+    open_scene(GN_POSE_NONE);
+    assert_posed(0, 1, 1, 1, 2, 1);
+}
+
+static void test_targets_without_a_skin(void **state) {
+    (void)state;
+    static const float weights[] = {0, 0, 1, 0};
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'scale':[1,3,1],'translation':[0,0,5]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0]}]");
+    animate("weights", 0, weights, 4, "SCALAR", "LINEAR");
+    open_scene(0);
+    gn_pose_step(&pose, 500000000);
+    assert_true(scene->items[0].skin < 0 && scene->items[0].morph == 0);
+    assert_posed(0, 1, 1, 1, 1.5, 6); /* half of 1, times 3 */
+    assert_int_equal(pose.list_counts[0], 1);
+}
+
+static void test_weights_by_a_spline(void **state) {
+    (void)state;
+    /* in-tangents, values, out-tangents: from 0 with slope 2 to 1 with slope 4 */
+    static const float weights[] = {0, 0, 0, 0, 2, 0, 4, 0, 1, 0, 0, 0};
+    animate("weights", 0, weights, 12, "SCALAR", "CUBICSPLINE");
+    open_scene(0);
+    gn_pose_step(&pose, 500000000);
+    assert_posed(0, 1, 1, 1, .5 + .125 * 2 - .125 * 4, 1);
+}
+
+static void test_sixteen_bit_joints_of_the_second_four(void **state) {
+    (void)state;
+    static const uint16_t joints[16] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    static const uint8_t second[16] = {255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0};
+    char json[300];
+    const int j = gn_maker_accessor(&maker, "VEC4", 5123, 4, joints, sizeof joints, NULL);
+    const int w =
+        gn_maker_accessor(&maker, "VEC4", 5121, 4, second, sizeof second, "'normalized':true");
+    snprintf(json, sizeof json,
+             "[{'primitives':[{'indices':1,'attributes':{'POSITION':0,'JOINTS_0':2,'WEIGHTS_0':3,"
+             "'JOINTS_1':%d,'WEIGHTS_1':%d}}]}]",
+             j, w);
+    gn_maker_set(&maker, "meshes", json);
+    set_in("nodes", 2, "translation", "[2,4,0]");
+    open_scene(GN_POSE_NONE);
+    assert_true(gn_geometry_has(&scene->geometries[0], GN_ATTRIBUTE_JOINTS1));
+    assert_int_equal(scene->buffers.weights1[0], 32768); /* half, and what is left of 65535: */
+    assert_int_equal(scene->buffers.weights0[0], 32767);
+    double p[3];
+    gn_pose_vertex(&pose, 0, vertex_at(0, -1, 1), p);
+    assert_true(fabs(p[1] - 2) < 1e-3);
+}
+
+static void test_a_skeleton_that_mirrors(void **state) {
+    (void)state;
+    set_in("nodes", 1, "scale", "[-1,1,1]");
+    open_scene(GN_POSE_NONE);
+    assert_true(pose.items[0].mirrored);
+}
+
+static void test_flat_normals_follow_a_target(void **state) {
+    (void)state;
+    /* a target that tilts the square: the file has no normals */
+    static const float tilt[] = {0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 2, 0};
+    char json[200];
+    const int t = gn_maker_accessor(&maker, "VEC3", 5126, 4, tilt, sizeof tilt, NULL);
+    snprintf(json, sizeof json,
+             "[{'primitives':[{'indices':1,'attributes':{'POSITION':0},'targets':"
+             "[{'POSITION':%d}]}]}]",
+             t);
+    gn_maker_set(&maker, "meshes", json);
+    gn_maker_set(&maker, "nodes", "[{'mesh':0}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0]}]");
+    open_scene(GN_POSE_NONE);
+    const struct gn_targets *targets = scene->geometries[0].targets;
+    const uint32_t n = scene->geometries[0].vertex_count;
+    assert_int_equal(targets->parts, 2);
+    for (uint32_t v = 0; v < n; v++) {
+        vec3 whole;
+        glm_vec3_add(targets->deltas[n + v], scene->buffers.normals + 3 * v, whole);
+        assert_near(glm_vec3_norm(whole), 1);
+        assert_true(whole[1] < .99f); /* no longer straight up */
+    }
+}
+
+/* ---- what is refused, in one line ---------------------------------------------------------- */
+
+static void refused(const char *message) {
+    struct gn_scene *none = gn_maker_load(&maker, &warnings, &err);
+    assert_null(none);
+    assert_non_null(strstr(err.text, message));
+    assert_null(strchr(err.text, '\n'));
+}
+
+static void test_a_joint_that_the_skin_lacks(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "skins", "[{'joints':[1]}]");
+    refused("nodes[0]: a vertex of its mesh is of joint 1, but its skin has 1 joints");
+}
+
+static void test_too_many_joints(void **state) {
+    (void)state;
+    json_t *joints = json_array();
+    for (int i = 0; i < 65536; i++) json_array_append_new(joints, json_integer(1));
+    json_object_set_new(json_array_get(json_object_get(maker.root, "skins"), 0), "joints", joints);
+    refused("skins[0].joints: 65536 are more than 1024 joints");
+}
+
+static void test_counts_that_do_not_match(void **state) {
+    (void)state;
+    static const float binds[16] = {1};
+    char json[100];
+    set_in("nodes", 0, "weights", "[1,2,3]");
+    refused("nodes[0].weights: 3 weights, but there are 2 morph targets");
+    start(NULL);
+    const int one = gn_maker_accessor(&maker, "MAT4", 5126, 1, binds, sizeof binds, NULL);
+    snprintf(json, sizeof json, "[{'joints':[1,2],'inverseBindMatrices':%d}]", one);
+    gn_maker_set(&maker, "skins", json);
+    refused("skins[0].inverseBindMatrices: 1 matrices, but there are 2 joints");
+    start(NULL);
+    gn_maker_set(&maker, "skins", "[{'joints':[1,7]}]");
+    refused("skins[0].joints[1]: index 7, but there are 3 nodes");
+    start(NULL);
+    set_in("nodes", 0, "skin", "4");
+    refused("nodes[0].skin: index 4, but there are 1 skins");
+    start(NULL);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'indices':1,'attributes':{'POSITION':0},'targets':"
+                 "[{'POSITION':1}]}]}]");
+    refused("targets[0].POSITION: accessor 1 has 1 components, must be VEC3");
+    start(NULL);
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'targets':[{'POSITION':4}]},"
+                 "{'attributes':{'POSITION':0},'targets':[{'POSITION':4},{'POSITION':5}]}]}]");
+    refused("targets: 2, but another primitive has 1");
+    start(NULL);
+    gn_maker_set(&maker, "skins", "[{'joints':[]}]");
+    refused("skins[0]: has no joints");
+}
+
+static void test_a_mesh_without_joints_is_shown_without_its_skin(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "meshes", "[{'primitives':[{'indices':1,'attributes':{'POSITION':0}}]}]");
+    open_scene(GN_POSE_NONE);
+    assert_int_equal(scene->items[0].skin, -1);
+    assert_posed(0, 1, 1, 10, 9, 10); /* where its node is */
+    assert_non_null(strstr(warnings.text[0], "no JOINTS_0"));
+}
+
+static void test_joints_outside_of_the_scene_do_not_move(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0]}]");
+    open_scene(GN_POSE_NONE);
+    assert_posed(0, 1, 1, 1, 0, 1);
+    assert_non_null(strstr(warnings.text[0], "not in the scene"));
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, start, end)
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        TEST(test_vertices_follow_their_joints),
+        TEST(test_a_vertex_lies_between_its_joints),
+        TEST(test_weights_that_are_none),
+        TEST(test_one_mesh_in_two_poses),
+        TEST(test_bounds_hold_all_vertices),
+        TEST(test_weights_of_the_mesh_and_of_the_node),
+        TEST(test_targets_without_a_skin),
+        TEST(test_weights_by_a_spline),
+        TEST(test_sixteen_bit_joints_of_the_second_four),
+        TEST(test_a_skeleton_that_mirrors),
+        TEST(test_flat_normals_follow_a_target),
+        TEST(test_a_joint_that_the_skin_lacks),
+        TEST(test_too_many_joints),
+        TEST(test_counts_that_do_not_match),
+        TEST(test_a_mesh_without_joints_is_shown_without_its_skin),
+        TEST(test_joints_outside_of_the_scene_do_not_move),
+    };
+    return RUN(tests);
+}
