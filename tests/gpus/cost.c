@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/hash.h"
+
 /* The drivers' words for a stage, and ours. Vertex shaders are compiled twice: once for where
  * triangles lie, for the sorting into tiles, and once for the rest. */
 static const char *const words[][2] = {
@@ -79,4 +81,33 @@ void gn_cost_listen(struct gn_listener *listener, struct gn_gl *gl) {
     GL(gl, Enable)(GL_DEBUG_OUTPUT_KHR);
     GL(gl, Enable)(GL_DEBUG_OUTPUT_SYNCHRONOUS_KHR);
     GL(gl, DebugMessageCallback)(hear, listener);
+}
+
+bool gn_cost_hash(const struct gn_gl *gl, const struct gn_plan *plan,
+                  const struct gn_program_key *key, uint64_t *out) {
+    *out = gn_hash(GN_HASH_INIT, key, sizeof *key);
+    *out = gn_hash(*out, &plan->output, sizeof plan->output);
+    *out = gn_hash(*out, &plan->msaa, sizeof plan->msaa);
+    for (int shader = GN_GL_VERTEX; shader <= GN_GL_FRAGMENT; shader++) {
+        struct gn_gl_text text = {0};
+        const bool ok = gn_gl_compose(gl->shaders, key, (enum gn_gl_shader)shader, &text, NULL);
+        if (ok) *out = gn_hash(*out, text.data, text.size);
+        gn_gl_text_finish(&text);
+        if (!ok) return false;
+    }
+    return true;
+}
+
+bool gn_cost_find(const char *path, uint64_t hash, struct gn_cost *cost) {
+    FILE *file = path ? fopen(path, "r") : NULL;
+    char line[400];
+    unsigned long long known;
+    while (file && cost->count < GN_COST_STAGES && fgets(line, sizeof line, file)) {
+        struct gn_cost_stage *stage = &cost->stages[cost->count];
+        cost->count += sscanf(line, "COST %llx %u %u %15s", &known, &stage->instructions,
+                              &stage->spills, stage->name) == 4 &&
+                       known == hash;
+    }
+    if (file) fclose(file);
+    return gn_cost_is_whole(cost);
 }

@@ -25,5 +25,10 @@ bool gn_cost_is_whole(const struct gn_cost *cost);
 /* One line of the driver's, "FRAGMENT shader: 22 inst, .., 0:0 spills:fills"; false: it is none. A
  * stage that is told of again is the later one: drivers compile once more for what is bound. */
 bool gn_cost_read(struct gn_cost *cost, const char *line);
+/* Of all that a driver compiles by: the sources, and the picture's form. False: no sources. */
+bool gn_cost_hash(const struct gn_gl *gl, const struct gn_plan *plan,
+                  const struct gn_program_key *key, uint64_t *out);
+/* What a file of an earlier run has of the program with that hash; path may be NULL. */
+bool gn_cost_find(const char *path, uint64_t hash, struct gn_cost *cost);
 
 #endif

@@ -126,7 +126,7 @@ try() {
     for shift in "${shifts[@]}"; do
         arguments=(--turn $((turn + shift)) --known "$known")
         [ -z "${GN_FULL:-}" ] || arguments=(--full)
-        case $gpu in pi4) arguments+=(--looks) ;; esac
+        case $gpu in pi4 | g52) arguments+=(--looks) ;; esac
         measure "$gpu" "$file" "${arguments[@]}"
         said=$?
         [ "$said" = 0 ] || status=$said

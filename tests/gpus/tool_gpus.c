@@ -92,36 +92,6 @@ static void forget_programs(struct gn_gl *gl) {
     gn_gl_programs_finish(gl);
 }
 
-/* Of all that a driver compiles by: the sources, and the picture's form. False: no sources. */
-static bool hash_of(const struct gn_plan *plan, const struct gn_program_key *key, uint64_t *out) {
-    *out = gn_hash(GN_HASH_INIT, key, sizeof *key);
-    *out = gn_hash(*out, &plan->output, sizeof plan->output);
-    *out = gn_hash(*out, &plan->msaa, sizeof plan->msaa);
-    for (int shader = GN_GL_VERTEX; shader <= GN_GL_FRAGMENT; shader++) {
-        struct gn_gl_text text = {0};
-        const bool ok =
-            gn_gl_compose(asked->gl->shaders, key, (enum gn_gl_shader)shader, &text, NULL);
-        if (ok) *out = gn_hash(*out, text.data, text.size);
-        gn_gl_text_finish(&text);
-        if (!ok) return false;
-    }
-    return true;
-}
-
-static bool find_known(const struct bench *b, uint64_t hash, struct gn_cost *cost) {
-    FILE *file = b->known ? fopen(b->known, "r") : NULL;
-    char line[400];
-    unsigned long long known;
-    while (file && cost->count < GN_COST_STAGES && fgets(line, sizeof line, file)) {
-        struct gn_cost_stage *stage = &cost->stages[cost->count];
-        cost->count += sscanf(line, "COST %llx %u %u %15s", &known, &stage->instructions,
-                              &stage->spills, stage->name) == 4 &&
-                       known == hash;
-    }
-    if (file) fclose(file);
-    return gn_cost_is_whole(cost);
-}
-
 /* Links it and draws with it wherever the plan does, and hears what that cost. A compiler that has
  * compiled an equal stage for a program that is still there tells of it only once: so no other is.
  */
@@ -147,7 +117,7 @@ static bool measure(struct bench *b, const struct gn_plan *plan, uint32_t index)
     gn_gl_key_text(key, name, sizeof name);
     note_seen(b, key);
     b->kinds |= 1u << key->kind;
-    const bool known = hash_of(plan, key, &hash) && find_known(b, hash, &cost);
+    const bool known = gn_cost_hash(b->gl, plan, key, &hash) && gn_cost_find(b->known, hash, &cost);
     if (!known && !compile(b, plan, index, name, &cost)) return false;
     for (int i = 0; i < cost.count; i++)
         printf("COST\t%016llx\t%u\t%u\t%s\t%s\n", (unsigned long long)hash,
