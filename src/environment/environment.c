@@ -48,6 +48,7 @@ void gn_environment_make(struct gn_sphere *sphere, int threads, struct gn_enviro
 }
 
 struct picture {
+    const struct gn_environment_work *work;
     struct gn_sphere *sphere;
     uint32_t px[2];
     float (*row)[3];
@@ -57,16 +58,18 @@ static void add_picture_row(void *user, uint32_t y, const uint8_t *rgbe) {
     const struct picture *p = user;
     for (uint32_t x = 0; x < p->px[0]; x++) gn_hdr_color(rgbe + 4 * x, p->row[x]);
     gn_sphere_add_row(p->sphere, y, p->px, (const float(*)[3])p->row);
+    if (p->work->progress) p->work->progress(p->work->user, (y + 1.0) / p->px[1]);
 }
 
-bool gn_environment_read_hdr(const uint8_t *data, size_t size, int threads,
-                             struct gn_environment *out, struct gn_err *err) {
-    struct picture p = {0};
+bool gn_environment_read_hdr(const uint8_t *data, size_t size,
+                             const struct gn_environment_work *work, struct gn_environment *out,
+                             struct gn_err *err) {
+    struct picture p = {.work = work};
     if (!gn_hdr_size(data, size, p.px, err)) return false;
     p.sphere = gn_sphere_create();
     p.row = gn_xalloc(p.px[0], sizeof *p.row);
     const bool ok = gn_hdr_read(data, size, add_picture_row, &p, err);
-    if (ok) gn_environment_make(p.sphere, threads, out);
+    if (ok) gn_environment_make(p.sphere, work->threads, out);
     free(p.row);
     gn_sphere_destroy(p.sphere);
     return ok;

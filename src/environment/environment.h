@@ -60,8 +60,14 @@ void gn_sphere_add_row(struct gn_sphere *sphere, uint32_t y, const uint32_t px[2
 /* Prefilters what was added, with so many threads at most. The same input gives the same bits. */
 void gn_environment_make(struct gn_sphere *sphere, int threads, struct gn_environment *out);
 /* From a Radiance picture. */
-bool gn_environment_read_hdr(const uint8_t *data, size_t size, int threads,
-                             struct gn_environment *out, struct gn_err *err);
+struct gn_environment_work {
+    int threads;                                /* at most */
+    void (*progress)(void *user, double share); /* after each row, of all rows; or NULL */
+    void *user;
+};
+bool gn_environment_read_hdr(const uint8_t *data, size_t size,
+                             const struct gn_environment_work *work, struct gn_environment *out,
+                             struct gn_err *err);
 
 /* ---- kept in a file ---- */
 

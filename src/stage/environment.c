@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/arena.h"
+#include "core/clock.h"
 #include "core/embedded.h"
 #include "core/file.h"
 #include "core/hash.h"
@@ -96,6 +97,21 @@ static bool load_kept(const char *path, struct gn_environment *out) {
     return ok;
 }
 
+struct reading {
+    const char *path;
+    int64_t begun_ns;
+    int percent; /* that was printed last */
+};
+
+/* On a terminal, once the work has taken a second. */
+static void print_progress(void *user, double share) {
+    struct reading *r = user;
+    const int percent = (int)(100.0 * share);
+    if (percent <= r->percent || gn_clock_monotonic_ns() - r->begun_ns < GN_NS_PER_S) return;
+    r->percent = percent;
+    fprintf(stderr, "\r%s: light %d %%%s", r->path, percent, percent >= 100 ? "\n" : "");
+}
+
 static bool read_file(const char *path, struct gn_environment *out, struct gn_err *err) {
     struct gn_bytes bytes = {0};
     char folder[4000], kept[4096];
@@ -107,7 +123,12 @@ static bool read_file(const char *path, struct gn_environment *out, struct gn_er
                  (unsigned long long)hash, bytes.size, kept_suffix);
     bool ok = keeps && load_kept(kept, out);
     if (!ok) {
-        ok = gn_environment_read_hdr(bytes.data, bytes.size, THREADS, out, err);
+        struct reading reading = {.path = path, .begun_ns = gn_clock_monotonic_ns()};
+        const struct gn_environment_work work = {.threads = THREADS,
+                                                 .progress =
+                                                     isatty(STDERR_FILENO) ? print_progress : NULL,
+                                                 .user = &reading};
+        ok = gn_environment_read_hdr(bytes.data, bytes.size, &work, out, err);
         if (!ok) gn_fail_prefix(err, "%s", path);
         if (ok && keeps) keep_environment(folder, kept, out);
     }

@@ -16,6 +16,8 @@
 enum { W = 16, H = 8, SEEDS = 3, ROOM = 2048, SECONDS = 2, PREFILTERED_EVERY = 400 };
 static uint64_t first = 1, count = 2000;
 
+static const struct gn_environment_work one_thread = {.threads = 1};
+
 struct picture {
     uint8_t data[ROOM];
     size_t size;
@@ -124,7 +126,7 @@ static void check_line(const struct gn_err *err, uint64_t number) {
 static void check_environment(const struct picture *p, uint64_t number) {
     static struct gn_environment environment;
     struct gn_err err = {0};
-    if (!gn_environment_read_hdr(p->data, p->size, 1, &environment, &err))
+    if (!gn_environment_read_hdr(p->data, p->size, &one_thread, &environment, &err))
         check_line(&err, number);
     else
         for (int i = 0; i < 3; i++) assert_true(isfinite(environment.key.color[i]));
@@ -170,7 +172,7 @@ static void test_a_broken_kept_environment_is_not_read(void **state) {
     static uint8_t file[GN_ENVIRONMENT_FILE_BYTES];
     const struct picture seed = make_seed(2);
     struct gn_err err = {0};
-    assert_true(gn_environment_read_hdr(seed.data, seed.size, 1, &environment, &err));
+    assert_true(gn_environment_read_hdr(seed.data, seed.size, &one_thread, &environment, &err));
     gn_environment_write(&environment, file);
     assert_true(gn_environment_read(file, sizeof file, &again));
     struct gn_dice dice = {.state = first};
