@@ -121,11 +121,26 @@ static bool draws_over_nothing(const struct gn_frame *frame) {
     return frame->plan.tones_sum || frame->plan.transparent;
 }
 
+/* A grey wall in the light of the environment, on the mean of all sides: a shadow on an unseen
+ * floor is seen on it, and so are black and white models. */
+static void wall_color(const struct gn_frame_environment_opts *e, vec3 color) {
+    const float reflectance = 0.5f;
+    const float(*h)[3] = e->of->whole.harmonics;
+    for (int k = 0; k < 3; k++)
+        color[k] = fmaxf(reflectance * e->strength * (h[0][k] + 0.5f * (h[6][k] + h[8][k])), 0.0f);
+}
+
 static void background_of(const struct gn_frame *frame, const struct gn_frame_opts *opts,
                           vec3 color) {
     const struct gn_scene_environment *e = &frame->scene->environment;
+    const struct gn_frame_environment_opts *around = &opts->environment;
     switch (opts->background) {
-    case GN_BACKGROUND_SCENE: glm_vec3_copy((float *)e->background, color); break;
+    case GN_BACKGROUND_SCENE:
+        if (!e->has_background && around->of && around->lights_key && around->strength > 0.0f)
+            wall_color(around, color);
+        else
+            glm_vec3_copy((float *)e->background, color);
+        break;
     case GN_BACKGROUND_SKY: glm_vec3_lerp((float *)e->sky, (float *)e->ground, 0.5f, color); break;
     case GN_BACKGROUND_COLOR: glm_vec3_copy((float *)opts->background_color, color); break;
     case GN_BACKGROUND_TRANSPARENT: glm_vec3_zero(color); break;

@@ -79,7 +79,7 @@ GN_OPTION(.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -2
 GN_OPTION(.name = "tone", .section = "render", .kind = GN_KIND_CHOICE, .choices = tones, .value = "OPERATOR", .fallback = "auto",
           .help = "tone mapping; auto: neutral for a scene without lights of its own, else none; never with --output linear, .pfm or --aov", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.tone))
 GN_OPTION(.name = "background", .section = "render", .kind = GN_KIND_COLOR, .choices = backgrounds, .value = "COLOUR", .fallback = "auto",
-          .help = "what is behind the scene: a colour #rrggbb; auto: gnomon_background, else sky; sky: the mean of gnomon_sky and gnomon_ground; transparent: .png files get straight alpha, screens black", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.background))
+          .help = "what is behind the scene: a colour #rrggbb; auto: gnomon_background, else a grey in the light of the studio where that lights the scene, else sky; sky: the mean of gnomon_sky and gnomon_ground; transparent: .png files get straight alpha, screens black", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.background))
 GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "auto",
           .help = "multisampling; auto: 4 in .png files, and on screens where the GPU keeps samples on its chip (tiling GPUs), if they take at most 256 MB; else 0, as in windows drawn by software, with --output linear, .pfm, --aov and --shadow truth", .commands = DRAW, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",

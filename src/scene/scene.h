@@ -250,6 +250,7 @@ struct gn_extent {
 struct gn_scene_environment { /* linear, after exposure */
     vec3 sky, ground;         /* radiance of the hemispheres */
     vec3 background;
+    bool has_background; /* the file names one */
 };
 struct gn_scene_added {        /* by the loader, as the last one, because the file has none */
     bool light, camera, floor; /* the floor: an item whose material is a shadow catcher */

@@ -195,5 +195,6 @@ void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene) {
     }
     glm_vec3_lerp(s->environment.sky, s->environment.ground, .5f, s->environment.background);
     if (json_is_object(extras.json))
-        take_color(g, &extras, "gnomon_background", s->environment.background);
+        s->environment.has_background =
+            take_color(g, &extras, "gnomon_background", s->environment.background);
 }
