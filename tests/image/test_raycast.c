@@ -46,8 +46,13 @@ static void small_init(struct small *s) {
 /* Starts an item of its own geometry and material; quads are added to the last one. */
 static struct gn_material *small_item(struct small *s) {
     uint32_t i = s->scene.item_count++;
-    s->items[i] = (struct gn_item){
-        .geometry = i, .material = i, .instance = -1, .casts = true, .receives = true};
+    s->items[i] = (struct gn_item){.geometry = i,
+                                   .material = i,
+                                   .instance = -1,
+                                   .skin = -1,
+                                   .morph = -1,
+                                   .casts = true,
+                                   .receives = true};
     s->geometries[i] = (struct gn_geometry){.first_vertex = s->scene.buffers.vertex_count,
                                             .first_index = s->scene.buffers.index_count};
     s->materials[i] = (struct gn_material){.base_color = {1, 1, 1, 1}, .alpha_cutoff = .5f};
