@@ -221,7 +221,7 @@ $(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
 	$(Q)$(COMPILE) $(if $(filter tests/%,$<),-Itests) -c -o $@ $<
 $(B)/obj/src/import/draco.o: src/import/draco.cc $(B)/flags
 	@mkdir -p $(@D) && echo "c++  $<"
-	$(Q)$(CXX) -std=c++17 -Isrc -Wall -Wextra $(CFLAGS_$(CONFIG)) $(CPPFLAGS) $(CXXFLAGS) $(if $(WERROR),-Werror) -MMD -MP -c -o $@ $<
+	$(Q)$(CXX) -std=c++17 -Isrc -Wall -Wextra $(CFLAGS_$(CONFIG)) $(if $(filter asan,$(CONFIG)),-fno-sanitize=vptr) $(CPPFLAGS) $(CXXFLAGS) $(if $(WERROR),-Werror) -MMD -MP -c -o $@ $<
 $(B)/obj/gen/embedded.o: $(B)/gen/embedded.c $(B)/flags
 	@mkdir -p $(@D) && echo "cc   $<"
 	$(Q)$(COMPILE) -c -o $@ $<

@@ -20,7 +20,7 @@ enum {
     EVEN_POSES = 64, /* of these, at least so many evenly over its time */
     FEW_POSES = 16,
     LOOKS = 1 << 20,    /* nodes and items that are posed, for all choices of clips together */
-    VERTICES = 1 << 20, /* that are deformed, for all choices of clips together */
+    VERTICES = 1 << 18, /* that are deformed, for all choices of clips together */
     REPEATS = 4,        /* times that the longest clip is played, where clips last differently */
 };
 

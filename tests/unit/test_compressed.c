@@ -95,6 +95,12 @@ static void expect_refused(const char *positions, const char *indices, const cha
     setup(NULL);
 }
 
+static int finish(void **state) {
+    (void)state;
+    gn_maker_finish(&maker);
+    return 0;
+}
+
 static void test_wrong_streams_are_refused_by_name(void **state) {
     (void)state;
     static const struct {
@@ -147,8 +153,8 @@ int main(void) {
         cmocka_unit_test_setup(test_attributes_and_triangles, setup),
         cmocka_unit_test_setup(test_an_index_sequence_and_exponents, setup),
         cmocka_unit_test(test_octahedral_normals),
-        cmocka_unit_test_setup(test_wrong_streams_are_refused_by_name, setup),
-        cmocka_unit_test_setup(test_damaged_data_is_refused, setup),
+        cmocka_unit_test_setup_teardown(test_wrong_streams_are_refused_by_name, setup, finish),
+        cmocka_unit_test_setup_teardown(test_damaged_data_is_refused, setup, finish),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
