@@ -26,6 +26,7 @@ void gn_show_forget_work(struct gn_show *s) {
     s->fade.prepared = false;
     gn_frame_destroy(s->split.frame);
     s->split.frame = NULL;
+    gn_truth_drop(s);
 }
 
 void gn_show_drop_staged(struct gn_show *s) {
@@ -182,7 +183,8 @@ void gn_show_take_staged(struct gn_show *s) {
     struct gn_stage *stage = &s->stage;
     struct gn_loaded *staged = scenes->staged;
     const struct gn_loaded shown = {.scene = stage->scene, .pose = stage->pose};
-    gn_frame_destroy(s->split.frame); /* it is of the other scene */
+    gn_truth_drop(s); /* both are of the other scene */
+    gn_frame_destroy(s->split.frame);
     s->split.frame = NULL;
     if (stage->gl) {
         gn_gl_stage_show(stage->gl);

@@ -102,6 +102,8 @@ bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
     const int frames = s->stage.settings->run.frames;
     s->counts.most_frames = frames > 0 && !s->reload.first ? (uint64_t)frames : UINT64_MAX;
     gn_show_list_modes(s);
+    gn_truth_drop(s);
+    s->truth = (struct gn_show_truth){0};
     gn_frame_destroy(s->split.frame);
     s->split = (struct gn_show_split){0}; /* its mode is of the other list */
     s->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};

@@ -85,7 +85,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
             text = s->modes.names[view->caption_mode];
             if (!s->split.on) break;
             snprintf(t->modes, sizeof t->modes, "%.50s | %.50s", s->modes.names[s->split.left],
-                     text);
+                     s->truth.on ? "truth" : text);
             text = t->modes;
             break;
         case GN_KIOSK_CAPTION_SCENE: text = scene_name(s, view->caption_scene); break;

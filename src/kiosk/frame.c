@@ -23,7 +23,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         drawn->old > 0.0f || view.caption != drawn->caption ||
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
-    return moves || differs || gn_show_bar_moves(s) ||
+    return moves || differs || gn_show_bar_moves(s) || gn_truth_wants_frame(s) ||
            gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
@@ -58,7 +58,9 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     bool left_is_behind = false;
     if (s->split.on && !gn_split_draw_left(s, scene_ns, &left_is_behind, err)) return false;
-    if (!gn_stage_draw(&s->stage, scene_ns, s->warnings, err)) return false;
+    if (!(s->truth.on ? gn_truth_draw(s, scene_ns, err)
+                      : gn_stage_draw(&s->stage, scene_ns, s->warnings, err) != NULL))
+        return false;
     s->stage.is_behind |= left_is_behind;
     if (s->split.on)
         gn_split_lay_over(s);

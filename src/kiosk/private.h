@@ -15,6 +15,7 @@
 #include "kiosk/show.h"
 #include "kiosk/split.h"
 #include "kiosk/stats.h"
+#include "kiosk/truth.h"
 #include "kiosk/viewer.h"
 #include "options/binding.h"
 #include "options/change.h"
@@ -143,6 +144,7 @@ struct gn_show {
     struct gn_screenshot *screenshot; /* NULL without control */
     struct gn_show_viewer viewer;
     struct gn_show_split split;
+    struct gn_show_truth truth; /* while the split is on */
     bool changed; /* the next picture differs: draw it */
     bool ends, reloads;
 };
@@ -272,6 +274,8 @@ bool gn_show_look_at_first(const struct gn_show *show, struct gn_options *option
                            char why[GN_SHOW_WHY], struct gn_err *err);
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
+
+/* truth.c stands here; see truth.h. */
 
 /* ---- events.c: actions as events of the machine; problems ------------------------------------ */
 

@@ -32,6 +32,8 @@ static int64_t due_ns(const struct gn_show *s) {
     if (bar_ns < at_ns) at_ns = bar_ns;
     const int64_t turns_ns = gn_viewer_due_ns(s);
     if (turns_ns < at_ns) at_ns = turns_ns;
+    const int64_t truth_ns = gn_truth_due_ns(s);
+    if (truth_ns < at_ns) at_ns = truth_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;
@@ -70,6 +72,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_show_renew_shaders(s);
     gn_show_advance(s);
     gn_show_enter_set(s);
+    gn_truth_step(s);
 
     /* a frame if one is due, which does a piece of work ahead itself, else such a piece; with a
      * slow scene they take turns, so that input is heard between them */

@@ -7,6 +7,7 @@
 enum { REACH_PX = 12, LINE_PX = 2 }; /* of the mouse to each side of the line; the line's half */
 
 void gn_split_end(struct gn_show *s) {
+    if (s->truth.on) gn_truth_end(s);
     gn_frame_destroy(s->split.frame);
     s->split = (struct gn_show_split){.at = s->split.at};
     s->changed = true;
@@ -21,6 +22,19 @@ void gn_split_toggle(struct gn_show *s) {
     s->split = (struct gn_show_split){.on = true, .left = s->kiosk.shown.mode, .at = 0.5f};
     gn_show_act(s, &next, gn_loop_now_ns(s->loop));
     s->changed = true;
+}
+
+/* The truth of the mode that is on the right, else of the one that is shown. */
+void gn_split_toggle_truth(struct gn_show *s) {
+    const bool on = s->truth.on;
+    if (on)
+        gn_truth_end(s);
+    else
+        gn_truth_begin(s);
+    if (on && s->split.left == s->kiosk.shown.mode)
+        gn_split_end(s);
+    else if (s->truth.on && !s->split.on)
+        s->split = (struct gn_show_split){.on = true, .left = s->kiosk.shown.mode, .at = 0.5f};
 }
 
 void gn_split_take_pointer(struct gn_show *s, struct gn_pointer *p) {

@@ -13,13 +13,15 @@ struct gn_show;
 
 struct gn_show_split {      /* zeroed: off */
     bool on, grips;         /* grips: the mouse drags the line */
-    int left;               /* mode on the left; on the right is the one that is shown */
+    int left;               /* mode on the left; on the right is the one that is shown, or truth */
     float at;               /* place of the line: 0 the window's left edge, 1 its right */
     struct gn_frame *frame; /* builds the left plans; NULL: none yet */
 };
 
 /* On: the shown mode goes to the left, and the next one is shown on the right; off: that stays. */
 void gn_split_toggle(struct gn_show *show);
+/* In place of the right mode its truth, with a split if there is none; off: as before. */
+void gn_split_toggle_truth(struct gn_show *show);
 void gn_split_end(struct gn_show *show);
 /* A drag that begins near the line moves it, and does not turn the view. */
 void gn_split_take_pointer(struct gn_show *show, struct gn_pointer *pointer);

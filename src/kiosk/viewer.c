@@ -175,6 +175,7 @@ static void run_command(struct gn_show *s, enum gn_viewer_command command, int p
     case GN_VIEWER_SLOWER: change_speed(s, -1); break;
     case GN_VIEWER_FASTER: change_speed(s, 1); break;
     case GN_VIEWER_SPLIT: gn_split_toggle(s); break;
+    case GN_VIEWER_TRUTH: gn_split_toggle_truth(s); break;
     case GN_VIEWER_SCREENSHOT: write_screenshot(s); break;
     case GN_VIEWER_RELOAD:
         gn_show_note(s, "reloading ..");

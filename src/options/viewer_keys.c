@@ -21,6 +21,7 @@ const struct gn_viewer_key gn_viewer_keys[] = {
      GN_VIEWER_SPLIT,
      "xX",
      {GN_KEY_TAB}},
+    {"t", "ray-traced truth right of the line; the scene stands", GN_VIEWER_TRUTH, "tT", {0}},
     {"e", "environment: studio, none", GN_VIEWER_ENVIRONMENT, "eE", {0}},
     {"a", "next clip of the animation", GN_VIEWER_CLIP, "aA", {0}},
     {"[, -", "half the speed", GN_VIEWER_SLOWER, "[-", {0}},

@@ -10,6 +10,7 @@ enum gn_viewer_command {
     GN_VIEWER_CAMERA, /* the number is the place in `keys`, from 0 */
     GN_VIEWER_ORBIT,  /* likewise: left, right, up, down */
     GN_VIEWER_SPLIT,
+    GN_VIEWER_TRUTH,
     GN_VIEWER_ENVIRONMENT,
     GN_VIEWER_CLIP,
     GN_VIEWER_SLOWER,

@@ -1,7 +1,12 @@
 #include "stage/rays.h"
 
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
 
+#include "core/arena.h"
 #include "image/write.h"
 #include "truth/cast.h"
 
@@ -37,9 +42,15 @@ static void init_eye(const struct gn_stage *stage, const struct gn_plan *plan,
         gn_frame_light_camera(&stage->pose, view->light_plus_1 - 1, opts.aspect, &framing.camera,
                               framing.view_from_world, framing.eye_ws);
     } else {
-        gn_framing_build(&stage->pose, (uint32_t)view->camera, &opts, &framing);
+        gn_orbit_view(&view->orbit, &stage->pose, (uint32_t)view->camera, &opts, &framing);
     }
     gn_ray_eye_look(eye, &framing, w, h);
+    if (eye->orthographic && !gn_orbit_is_zero(&view->orbit)) {
+        float half[2];
+        gn_orbit_ortho_half(&view->orbit, &framing.camera, opts.aspect, half);
+        eye->half_width = (double)half[0];
+        eye->half_height = (double)half[1];
+    }
     if (view->turntable_rad != 0.0f) gn_ray_eye_turn(eye, centre, (double)view->turntable_rad);
 }
 
@@ -66,62 +77,155 @@ static void lay_texture(const float *seen, const struct gn_ray_eye *eye, float *
         }
 }
 
-struct rays {
+struct gn_rays {
+    const struct gn_scene *scene;
+    const struct gn_pose *pose;
+    struct gn_ray_eye eye;
+    struct gn_ray_lamp lamps[GN_ALL_SHADOWS_MAX];
     uint32_t slots[GN_ALL_SHADOWS_MAX], count; /* of the plan */
     float *seen[GN_ALL_SHADOWS_MAX];
+    int samples;
+    /* of a thread */
+    struct gn_pose own_pose;
+    pthread_t thread;
+    bool started;
+    atomic_bool cancel, done;
+    atomic_uint permille;
 };
 
-static void cast(struct gn_stage *stage, const struct gn_plan *plan, const struct gn_ray_eye *eye,
-                 const struct rays *rays) {
-    struct gn_raycast triangles;
-    struct gn_ray_lamp lamps[GN_ALL_SHADOWS_MAX];
-    gn_raycast_init(&triangles, stage->scene, &stage->pose);
+static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
+                      const struct gn_plan *plan, const struct gn_scene_limits *limits,
+                      struct gn_err *err) {
+    const size_t pixels = (size_t)plan->width_px * plan->height_px;
+    rays->scene = stage->scene;
+    rays->pose = &stage->pose;
+    rays->samples = stage->settings->run.samples;
+    for (uint32_t i = 0; i < plan->shadow_count; i++)
+        if (plan->shadows[i].encoding == GN_ENCODING_SCREEN) rays->slots[rays->count++] = i;
+    if (rays->count == 0) return true;
+    if (!check_memory(stage, plan, limits, err)) return false;
     for (uint32_t i = 0; i < rays->count; i++) {
         const uint32_t light = plan->shadows[rays->slots[i]].light;
         const struct gn_frame_light_opts one = gn_frame_light_opts(&stage->frame_opts, light);
-        gn_ray_lamp_init(&lamps[i], &stage->pose, light);
-        if (one.given & GN_LIGHT_RADIUS) lamps[i].radius = (double)one.radius;
+        gn_ray_lamp_init(&rays->lamps[i], &stage->pose, light);
+        if (one.given & GN_LIGHT_RADIUS) rays->lamps[i].radius = (double)one.radius;
+        rays->seen[i] = gn_picture_alloc(pixels, sizeof *rays->seen[i], err);
+        if (!rays->seen[i]) return false;
     }
-    gn_cast(&(struct gn_cast_opts){.rays = &triangles,
-                                   .eye = eye,
-                                   .lamps = lamps,
-                                   .lamp_count = rays->count,
-                                   .samples = stage->settings->run.samples,
-                                   .progress = stage->truth.progress,
-                                   .user = stage->truth.user},
-            rays->seen);
+    init_eye(stage, plan, &rays->eye);
+    return true;
+}
+
+static void finish_rays(struct gn_rays *rays) {
+    for (uint32_t i = 0; i < rays->count; i++) free(rays->seen[i]);
+    if (rays->own_pose.scene) gn_pose_finish(&rays->own_pose);
+}
+
+static void cast(struct gn_rays *rays, void (*progress)(void *user, double share), void *user) {
+    struct gn_raycast triangles;
+    gn_raycast_init_until(&triangles, rays->scene, rays->pose, &rays->cancel);
+    if (!atomic_load(&rays->cancel))
+        gn_cast(&(struct gn_cast_opts){.rays = &triangles,
+                                       .eye = &rays->eye,
+                                       .lamps = rays->lamps,
+                                       .lamp_count = rays->count,
+                                       .samples = rays->samples,
+                                       .progress = progress,
+                                       .user = user,
+                                       .cancel = &rays->cancel},
+                rays->seen);
     gn_raycast_finish(&triangles);
+}
+
+static bool give(const struct gn_stage *stage, const struct gn_plan *plan,
+                 const struct gn_rays *rays, struct gn_err *err) {
+    const size_t pixels = (size_t)plan->width_px * plan->height_px;
+    float *texture = gn_picture_alloc(pixels, sizeof *texture, err);
+    for (uint32_t i = 0; texture && i < rays->count; i++) {
+        lay_texture(rays->seen[i], &rays->eye, texture);
+        gn_gl_give(stage->gl, plan, rays->slots[i], texture);
+    }
+    free(texture);
+    return texture;
+}
+
+static bool cast_now(struct gn_stage *stage, const struct gn_plan *plan, struct gn_rays *rays,
+                     struct gn_err *err) {
+    const size_t pixels = (size_t)plan->width_px * plan->height_px;
+    cast(rays, stage->truth.progress, stage->truth.user);
+    if (!give(stage, plan, rays, err)) return false;
+    for (size_t i = 0; i < pixels; i++)
+        if (rays->seen[0][i] < 0.0f) rays->seen[0][i] = 1.0f; /* the background is lit */
+    stage->truth.visibility = rays->seen[0];
+    rays->seen[0] = NULL;
+    return true;
 }
 
 bool gn_stage_cast(struct gn_stage *stage, const struct gn_plan *plan,
                    const struct gn_scene_limits *limits, struct gn_err *err) {
-    struct rays rays = {.count = 0};
-    const size_t pixels = (size_t)plan->width_px * plan->height_px;
+    struct gn_rays rays = {.count = 0};
+    if (stage->truth.given) return give(stage, plan, stage->truth.given, err);
     free(stage->truth.visibility);
     stage->truth.visibility = NULL;
-    for (uint32_t i = 0; i < plan->shadow_count; i++)
-        if (plan->shadows[i].encoding == GN_ENCODING_SCREEN) rays.slots[rays.count++] = i;
-    if (rays.count == 0) return true;
-    if (!check_memory(stage, plan, limits, err)) return false;
-
-    float *texture = gn_picture_alloc(pixels, sizeof *texture, err);
-    bool ok = texture;
-    for (uint32_t i = 0; ok && i < rays.count; i++)
-        ok = (rays.seen[i] = gn_picture_alloc(pixels, sizeof *rays.seen[i], err)) != NULL;
-    if (ok) {
-        struct gn_ray_eye eye;
-        init_eye(stage, plan, &eye);
-        cast(stage, plan, &eye, &rays);
-        for (uint32_t i = 0; i < rays.count; i++) {
-            lay_texture(rays.seen[i], &eye, texture);
-            gn_gl_give(stage->gl, plan, rays.slots[i], texture);
-        }
-        for (size_t i = 0; i < pixels; i++)
-            if (rays.seen[0][i] < 0.0f) rays.seen[0][i] = 1.0f; /* the background is lit */
-        stage->truth.visibility = rays.seen[0];
-        rays.seen[0] = NULL;
-    }
-    for (uint32_t i = 0; i < rays.count; i++) free(rays.seen[i]);
-    free(texture);
+    bool ok = init_rays(&rays, stage, plan, limits, err);
+    if (ok && rays.count > 0) ok = cast_now(stage, plan, &rays, err);
+    finish_rays(&rays);
     return ok;
+}
+
+/* ---- in a thread ---- */
+
+static void note_progress(void *user, double share) {
+    struct gn_rays *rays = user;
+    atomic_store(&rays->permille, (unsigned)(1000.0 * share));
+}
+
+static void *cast_in_thread(void *user) {
+    struct gn_rays *rays = user;
+    setpriority(PRIO_PROCESS, 0, 10); /* of this thread, and of those that it starts */
+    cast(rays, note_progress, rays);
+    atomic_store(&rays->done, true);
+    return NULL;
+}
+
+static void copy_pose(struct gn_rays *rays, const struct gn_pose *pose) {
+    gn_pose_init(&rays->own_pose, pose->scene, pose->clips);
+    gn_pose_step(&rays->own_pose, pose->time_ns);
+    if (pose->aimed) gn_pose_aim(&rays->own_pose, pose->aim_ws);
+    rays->pose = &rays->own_pose;
+}
+
+static bool start(struct gn_rays *rays, struct gn_err *err) {
+    if (rays->count == 0) return gn_fail(err, "truth: no light casts a shadow here");
+    const int error = pthread_create(&rays->thread, NULL, cast_in_thread, rays);
+    rays->started = error == 0;
+    return rays->started || gn_fail(err, "truth: no thread: %s", strerror(error));
+}
+
+struct gn_rays *gn_rays_begin(struct gn_stage *stage, const struct gn_plan *plan,
+                              struct gn_err *err) {
+    struct gn_scene_limits limits;
+    if (!gn_stage_limits(stage->settings, &limits, err)) return NULL;
+    limits = gn_scene_limits_or_default(&limits);
+    struct gn_rays *rays = gn_xalloc(1, sizeof *rays);
+    bool ok = init_rays(rays, stage, plan, &limits, err);
+    if (ok) copy_pose(rays, &stage->pose);
+    ok = ok && start(rays, err);
+    if (ok) return rays;
+    gn_rays_destroy(rays);
+    return NULL;
+}
+
+double gn_rays_progress(const struct gn_rays *rays) {
+    return atomic_load(&rays->permille) / 1000.0;
+}
+
+bool gn_rays_are_done(const struct gn_rays *rays) { return atomic_load(&rays->done); }
+
+void gn_rays_destroy(struct gn_rays *rays) {
+    if (!rays) return;
+    atomic_store(&rays->cancel, true);
+    if (rays->started) pthread_join(rays->thread, NULL);
+    finish_rays(rays);
+    free(rays);
 }

@@ -14,6 +14,7 @@ struct gn_stage_look {
     struct gn_frame_opts frame_opts;
     int clips; /* as gn_pose_init() wants them */
 };
+struct gn_rays; /* stage/rays.h */
 struct gn_stage {
     const struct gn_settings *settings; /* must outlive the stage */
     struct gn_scene *scene;
@@ -25,6 +26,7 @@ struct gn_stage {
     struct gn_stage_truth {                         /* of technique truth */
         void (*progress)(void *user, double share); /* the caller's, as in gn_cast_opts, or NULL */
         void *user;
+        struct gn_rays *given; /* done ones of this moment, to be drawn in place of a cast; NULL */
         float *visibility; /* of the last picture's first light that is drawn with it: a value for
                               each pixel, row 0 on top; or NULL */
     } truth;

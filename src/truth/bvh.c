@@ -128,6 +128,11 @@ static void set_box(struct gn_bvh_node *node, const struct gn_bvh_triangle *t, u
 }
 
 void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count) {
+    gn_bvh_build_until(bvh, triangles, count, NULL);
+}
+
+void gn_bvh_build_until(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count,
+                        const atomic_bool *cancel) {
     *bvh = (struct gn_bvh){.triangles = triangles, .triangle_count = count};
     if (!count) return;
     struct bounds all = nothing;
@@ -144,6 +149,7 @@ void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_
     for (uint32_t i = 0; i < bvh->node_count; i++) {
         struct gn_bvh_node *node = &bvh->nodes[i];
         uint32_t first = node->first, n = node->count;
+        if (cancel && atomic_load_explicit(cancel, memory_order_relaxed)) break;
         set_box(node, triangles + first, n, pad);
         if (n <= LEAF) continue;
         struct split split = {0};

@@ -2,7 +2,6 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <stdatomic.h>
 
 enum { THREADS_MAX = 256 };
 
@@ -18,9 +17,13 @@ static float visibility(const struct gn_cast_opts *opts, const struct gn_ray_lam
                              : (float)gn_raycast_visible(opts->rays, lamp, surface);
 }
 
+static bool is_cancelled(const struct gn_cast_opts *opts) {
+    return opts->cancel && atomic_load_explicit(opts->cancel, memory_order_relaxed);
+}
+
 static void cast_row(const struct job *job, int y) {
     const struct gn_cast_opts *opts = job->opts;
-    for (int x = 0; x < opts->eye->width_px; x++) {
+    for (int x = 0; x < opts->eye->width_px && !is_cancelled(opts); x++) {
         const size_t at = (size_t)y * (size_t)opts->eye->width_px + (size_t)x;
         struct gn_ray_surface surface;
         const bool seen = gn_raycast_eye(opts->rays, opts->eye, x, y, &surface);

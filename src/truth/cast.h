@@ -2,6 +2,8 @@
 #ifndef GN_TRUTH_CAST_H
 #define GN_TRUTH_CAST_H
 
+#include <stdatomic.h>
+
 #include "truth/raycast.h"
 
 #define GN_CAST_BACKGROUND (-1.0f)
@@ -16,6 +18,7 @@ struct gn_cast_opts {
     /* Called by the calling thread now and then; share: 0 to 1. NULL: none. */
     void (*progress)(void *user, double share);
     void *user;
+    const atomic_bool *cancel; /* another thread sets it to end the cast early; or NULL */
 };
 /* For each lamp the visibility of each pixel, 0 dark to 1 lit, row 0 on top; GN_CAST_BACKGROUND
  * where the eye sees nothing. out: lamp_count arrays of the eye's width x height. The same bits

@@ -19,6 +19,7 @@
 #ifndef GN_TRUTH_RAYCAST_H
 #define GN_TRUTH_RAYCAST_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -36,6 +37,9 @@ struct gn_raycast {
  * need not. */
 void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
                      const struct gn_pose *pose);
+/* Another thread sets *cancel to end it; then `rays` may only be finished. NULL: none. */
+void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene,
+                           const struct gn_pose *pose, const atomic_bool *cancel);
 void gn_raycast_finish(struct gn_raycast *rays);
 /* What gn_raycast_init() takes at most for a scene. */
 uint64_t gn_raycast_bytes(const struct gn_scene *scene);
