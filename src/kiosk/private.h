@@ -145,7 +145,7 @@ struct gn_show {
     struct gn_show_viewer viewer;
     struct gn_show_split split;
     struct gn_show_truth truth; /* while the split is on */
-    bool changed; /* the next picture differs: draw it */
+    bool changed;               /* the next picture differs: draw it */
     bool ends, reloads;
 };
 

@@ -98,6 +98,15 @@ static void follow(struct gn_show *s) {
 
 static bool has_come(const struct gn_show_truth *t) { return t->rays && gn_rays_are_done(t->rays); }
 
+static bool begin_rays(struct gn_show *s, struct gn_err *err) {
+    struct gn_scene_limits limits;
+    const struct gn_plan *plan = gn_stage_plan(&s->stage, s->warnings, err);
+    if (!plan || !gn_stage_limits(s->stage.settings, &limits, err)) return false;
+    limits = gn_scene_limits_or_default(&limits);
+    s->truth.rays = gn_rays_begin(&s->stage, plan, &limits, err);
+    return s->truth.rays;
+}
+
 /* Begins to cast, or draws what was cast. */
 static bool use_rays(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
     struct gn_show_truth *t = &s->truth;
@@ -110,14 +119,12 @@ static bool use_rays(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
     stage->frame_opts.shadow.technique = GN_TECHNIQUE_TRUTH;
     stage->frame_opts.shadow.technique_given = true;
     stage->frame_opts.msaa = 0;
-    if (t->rays) {
+    if (has_come(t)) {
         stage->truth.given = t->rays;
         ok = gn_stage_draw(stage, time_ns, s->warnings, err);
         stage->truth.given = NULL;
     } else {
-        const struct gn_plan *plan = gn_stage_plan(stage, s->warnings, err);
-        t->rays = plan ? gn_rays_begin(stage, plan, err) : NULL;
-        ok = t->rays;
+        ok = begin_rays(s, err);
     }
     t->frame = stage->frame; /* another one where a capability was disproved */
     stage->frame = frame;

@@ -203,12 +203,9 @@ static bool start(struct gn_rays *rays, struct gn_err *err) {
 }
 
 struct gn_rays *gn_rays_begin(struct gn_stage *stage, const struct gn_plan *plan,
-                              struct gn_err *err) {
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(stage->settings, &limits, err)) return NULL;
-    limits = gn_scene_limits_or_default(&limits);
+                              const struct gn_scene_limits *limits, struct gn_err *err) {
     struct gn_rays *rays = gn_xalloc(1, sizeof *rays);
-    bool ok = init_rays(rays, stage, plan, &limits, err);
+    bool ok = init_rays(rays, stage, plan, limits, err);
     if (ok) copy_pose(rays, &stage->pose);
     ok = ok && start(rays, err);
     if (ok) return rays;

@@ -13,7 +13,7 @@ bool gn_stage_cast(struct gn_stage *stage, const struct gn_plan *plan,
  * has copies; the scene must outlive it. NULL: err says why; a plan without such lights is a
  * failure. Once done, stage.truth.given takes it for plans of the same lights and size. */
 struct gn_rays *gn_rays_begin(struct gn_stage *stage, const struct gn_plan *plan,
-                              struct gn_err *err);
+                              const struct gn_scene_limits *limits, struct gn_err *err);
 double gn_rays_progress(const struct gn_rays *rays); /* 0 to 1 */
 bool gn_rays_are_done(const struct gn_rays *rays);
 /* Ends the thread first, which takes some milliseconds. */
