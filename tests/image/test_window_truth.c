@@ -110,12 +110,13 @@ static void test_t_shows_the_truth_right_of_the_line(void **state) {
     window_stop(&s);
 }
 
-/* A large window: the rays take seconds. */
+/* A large window: the rays take seconds. A frame by software takes tenths of one, and more while
+ * other tests run. */
 static void test_the_end_does_not_wait_for_the_rays(void **state) {
     (void)state;
     for (int i = 0; i < 3; i++) {
         struct window_shown s;
-        show(&s, "1280x960");
+        show(&s, "1000x740");
         sleep(1);
         press(&s, XK_t);
         usleep(1500000);
@@ -124,7 +125,8 @@ static void test_the_end_does_not_wait_for_the_rays(void **state) {
         if (i > 0) sleep(1);
         const int64_t begun_ns = gn_clock_monotonic_ns();
         window_stop(&s);
-        assert_true(gn_clock_monotonic_ns() - begun_ns < 3 * GN_NS_PER_S);
+        const int64_t took_ns = gn_clock_monotonic_ns() - begun_ns;
+        if (took_ns >= 2 * GN_NS_PER_S) fail_msg("%d: %.2f s", i, (double)took_ns * 1e-9);
     }
 }
 
