@@ -18,7 +18,7 @@ static void normalize_weights(const float *weights, int count, uint16_t *out) {
         if (clean[i] > clean[most]) most = i;
     }
     for (int i = 0; i < count; i++) {
-        out[i] = sum > 0 ? (uint16_t)(clean[i] / sum * 65535 + .5) : 0;
+        out[i] = sum > 0 ? (uint16_t)lround(clean[i] / sum * 65535) : 0;
         left -= out[i];
     }
     out[most] = (uint16_t)(out[most] + left);

@@ -34,10 +34,12 @@ static const uint8_t *color_at(float x, float y) {
 
 void gn_window_icon(uint8_t *rgba, int side) {
     for (int i = 0; i < side * side; i++) {
+        const int row = i / side;
         unsigned sum[3] = {0}, hits = 0;
         for (int k = 0; k < SAMPLES * SAMPLES; k++) {
+            const int sub_row = k / SAMPLES;
             const float x = (float)(i % side) + ((float)(k % SAMPLES) + 0.5f) / SAMPLES,
-                        y = (float)(i / side) + ((float)(k / SAMPLES) + 0.5f) / SAMPLES;
+                        y = (float)row + ((float)sub_row + 0.5f) / SAMPLES;
             const uint8_t *c =
                 color_at(2.0f * x / (float)side - 1.0f, 2.0f * y / (float)side - 1.0f);
             for (int j = 0; c && j < 3; j++) sum[j] += c[j];

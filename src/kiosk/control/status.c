@@ -58,8 +58,7 @@ static json_t *lights_json(const struct gn_show *s) {
 json_t *gn_show_status_short(const struct gn_show *s) {
     const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &s->kiosk.wanted)];
     const int clip = s->kiosk.play.clip_plus_1 - 1;
-    const bool plays =
-        clip >= 0 && s->stage.scene && (uint32_t)clip < s->stage.scene->animation.clip_count;
+    const bool plays = clip >= 0 && (uint32_t)clip < s->stage.scene->animation.clip_count;
     return json_pack("{s:o, s:o, s:i, s:b, s:b, s:b, s:o}", "mode",
                      gn_json_make_text(s->modes.names[s->kiosk.wanted.mode]), "scene",
                      gn_json_make_text(scene ? scene : "(default scene)"), "camera",

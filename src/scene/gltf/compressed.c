@@ -74,7 +74,7 @@ static bool read_stream(struct gn_gltf *g, const struct gn_at *at, struct gn_mes
     const int mode = word_at(g, at, "mode", modes, 3, -1);
     const int filter = word_at(g, at, "filter", filters, 4, GN_MESHOPT_NO_FILTER);
     struct gn_at buffer_at = gn_at_any(at, "buffer");
-    if (g->failed) return false;
+    if (g->failed || mode < 0 || filter < 0) return false;
     const struct gn_blob *buffer = index < 0 ? NULL : &g->file.buffers[index];
     if (!buffer || !buffer->data) return gn_gltf_fail(g, &buffer_at, "holds no data");
     if (offset > buffer->size || length > buffer->size - offset)
@@ -92,7 +92,7 @@ static bool read_stream(struct gn_gltf *g, const struct gn_at *at, struct gn_mes
 bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at, struct gn_view *view) {
     struct gn_at at = {0};
     for (size_t i = 0; i < 2 && !at.json; i++) at = gn_at_extension(g, view_at, paths[i]);
-    struct gn_meshopt_stream stream;
+    struct gn_meshopt_stream stream = {0};
     if (!at.json || !gn_meshopt_is_read()) return !g->failed;
     if (!gn_gltf_check_time(g) || !read_stream(g, &at, &stream)) return false;
     uint8_t *out = gn_gltf_alloc(g, &g->memory.load, stream.count, stream.stride);
