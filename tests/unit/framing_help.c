@@ -9,13 +9,12 @@ static float reach_of_item(const struct gn_pose *pose, uint32_t item, mat4 view_
     const struct gn_scene *scene = pose->scene;
     const struct gn_geometry *g = &scene->geometries[scene->items[item].geometry];
     const float slope = tanf(framing->camera.yfov_rad / 2);
-    mat4 view_from_item;
     float most = 0;
-    glm_mat4_mul(view_from_world, pose->items[item].world_from_item, view_from_item);
     for (uint32_t i = 0; i < g->index_count; i++) {
         const uint32_t vertex = scene->buffers.indices[g->first_index + i];
         vec3 p;
-        glm_mat4_mulv3(view_from_item, scene->buffers.positions + 3 * (size_t)vertex, 1, p);
+        gn_pose_corner(pose, item, vertex, p);
+        glm_mat4_mulv3(view_from_world, p, 1, p);
         if (-p[2] < framing->camera.near_m || -p[2] > framing->camera.far_m) return INFINITY;
         const float x = fabsf(p[0]) / (-p[2] * slope * aspect), y = fabsf(p[1]) / (-p[2] * slope);
         most = fmaxf(most, fmaxf(x, y));
