@@ -204,7 +204,7 @@ vec3 surface_ambient(surface s, vec3 base) {
     float open = surface_open();
 #ifdef WITH_ENVIRONMENT
     float n_v = dot(s.normal, s.to_eye);
-    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.alpha);
+    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.roughness);
     vec3 share = environment_share(s.f0, s.roughness, n_v); // seen from behind, below 0: as at a grazing angle
     vec3 reflected = textureLod(u_environment, along, s.roughness * ENVIRONMENT_ROUGHEST).rgb;
     if (ENVIRONMENT_DIFFUSE) return mix(s.diffuse * ambient, reflected, share) * open;

@@ -52,7 +52,8 @@ vec3 environment_share(vec3 facing, float roughness, float n_v) {
 
 // Where a surface looks for what it reflects. Rough ones gather it around their normal: what lies behind their horizon is nothing
 // that they could reflect. Not of unit length.
-vec3 environment_along(vec3 normal, vec3 to_eye, float n_v, float alpha) {
-    return environment_direction((2.0 * n_v + 4.0 * (alpha * alpha)) * normal - to_eye);
+vec3 environment_along(vec3 normal, vec3 to_eye, float n_v, float roughness) {
+    float toward = 2.0 * roughness * roughness;
+    return environment_direction((2.0 * n_v + toward * toward) * normal - to_eye);
 }
 #endif
