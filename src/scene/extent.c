@@ -33,7 +33,9 @@ struct directions {
 };
 struct shape { /* of a geometry, its own space */
     vec3 *points;
-    uint32_t count; /* 0: not measured yet */
+    uint32_t count;     /* 0: not measured yet */
+    uint32_t *vertices; /* of one that is deformed: each that a triangle has, once */
+    uint32_t vertex_count;
 };
 struct measure { /* of a scene */
     struct gn_gltf *g;
@@ -41,6 +43,7 @@ struct measure { /* of a scene */
     struct directions towards;
     struct shape *shapes;   /* of each geometry */
     uint64_t vertices_left; /* of deformed items, that may still be posed */
+    uint32_t choices_left;  /* of clips, this one among them: each has its share of these */
 };
 
 /* Spiral of Fibonacci: equal steps of height, the golden angle between two. */
@@ -124,17 +127,33 @@ static void measure_shape(struct measure *m, const struct gn_geometry *g, struct
     shape->count = count;
 }
 
+static int compare_vertices(const void *a, const void *b) {
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+static void list_vertices(struct measure *m, const struct gn_geometry *g, struct shape *shape) {
+    uint32_t *vertices = gn_gltf_alloc(m->g, &m->g->memory.step, g->index_count, sizeof *vertices);
+    if (m->g->failed) return;
+    memcpy(vertices, m->scene->buffers.indices + g->first_index, g->index_count * sizeof *vertices);
+    qsort(vertices, g->index_count, sizeof *vertices, compare_vertices);
+    for (uint32_t i = 0; i < g->index_count; i++)
+        if (i == 0 || vertices[i] != vertices[i - 1]) vertices[shape->vertex_count++] = vertices[i];
+    shape->vertices = vertices;
+}
+
 /* Vertex by vertex while that is not too much work, else the corners of the box. */
 static void add_deformed(struct measure *m, const struct gn_pose *pose, uint32_t item,
                          const uint8_t *exceeded, int count, struct hull *hull) {
-    const struct gn_geometry *g = &m->scene->geometries[m->scene->items[item].geometry];
-    const uint32_t *indices = m->scene->buffers.indices + g->first_index;
+    const uint32_t geometry = m->scene->items[item].geometry;
     const struct gn_box *box = &pose->items[item].box_ws;
-    const bool exact = g->index_count <= m->vertices_left;
+    struct shape *shape = &m->shapes[geometry];
+    if (!shape->vertices) list_vertices(m, &m->scene->geometries[geometry], shape);
+    const bool exact = shape->vertex_count <= m->vertices_left;
     vec3 p;
-    if (exact) m->vertices_left -= g->index_count;
-    for (uint32_t i = 0; exact && i < g->index_count; i++) {
-        gn_pose_corner(pose, item, indices[i], p);
+    if (exact) m->vertices_left -= shape->vertex_count;
+    for (uint32_t i = 0; exact && i < shape->vertex_count; i++) {
+        gn_pose_corner(pose, item, shape->vertices[i], p);
         add_point(hull, &m->towards, exceeded, count, p);
     }
     for (int i = 0; !exact && i < 8; i++) {
@@ -222,11 +241,26 @@ static void choose_times(const struct gn_pose *pose, int64_t period_ns, int cell
         if (times[i] < 0) times[i] = period_ns / cells * i + period_ns / cells / 2;
 }
 
+/* Poses that this choice's share of the vertices allows. */
+static int count_deformed_poses(struct measure *m) {
+    uint64_t vertices = 0;
+    for (uint32_t i = 0; i < m->scene->item_count && !m->g->failed; i++) {
+        struct shape *shape = &m->shapes[m->scene->items[i].geometry];
+        if (!gn_item_is_deformed(&m->scene->items[i])) continue;
+        if (!shape->vertices)
+            list_vertices(m, &m->scene->geometries[m->scene->items[i].geometry], shape);
+        vertices += shape->vertex_count;
+    }
+    const uint64_t poses = vertices ? m->vertices_left / m->choices_left / vertices : POSES;
+    return poses < FEW_POSES ? FEW_POSES : poses < POSES ? (int)poses : POSES;
+}
+
 /* Of the clips that the pose plays; *left: what may still be posed. */
 static void add_clips(struct measure *m, struct gn_pose *pose, uint64_t *left, struct hull *hull) {
     const uint64_t moving = count_moving(pose), poses = *left / moving;
     const int64_t period_ns = find_period(pose);
-    const int cells = poses > POSES ? POSES : poses > FEW_POSES ? (int)poses : FEW_POSES;
+    const int most = count_deformed_poses(m);
+    const int cells = poses > (uint64_t)most ? most : poses > FEW_POSES ? (int)poses : FEW_POSES;
     int64_t times[POSES];
     add_items(m, pose, false, hull);
     choose_times(pose, period_ns > 0 ? period_ns : 1, cells, times);
@@ -268,6 +302,7 @@ bool gn_scene_measure(struct gn_gltf *g, struct gn_pose *pose) {
     uint64_t left = LOOKS;
     for (int clips = GN_POSE_NONE; clips < clip_count && !g->failed; clips++) {
         struct gn_extent *extent = &scene->extents[clips - GN_POSE_NONE];
+        m.choices_left = (uint32_t)(clip_count - clips);
         /* the only clip, played by default; or there was enough to do */
         if (clips >= 0 && (left == 0 || (clip_count == 1 && animation->clips[0].on_by_default))) {
             *extent = scene->extents[GN_POSE_DEFAULT - GN_POSE_NONE];
