@@ -197,7 +197,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
 }
 
 /* A window is on the screen within a fifth of a second. */
-static const int64_t WINDOW_NS = 60 * GN_NS_PER_S / 1000;
+static const int64_t WINDOW_NS = 30 * GN_NS_PER_S / 1000;
 
 bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     const struct gn_settings *o = s->config.options->settings;

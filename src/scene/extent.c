@@ -149,6 +149,7 @@ static void add_deformed(struct measure *m, const struct gn_pose *pose, uint32_t
     const struct gn_box *box = &pose->items[item].box_ws;
     struct shape *shape = &m->shapes[geometry];
     if (!shape->vertices) list_vertices(m, &m->scene->geometries[geometry], shape);
+    if (!shape->vertices) return;
     const bool exact = shape->vertex_count <= m->vertices_left;
     vec3 p;
     if (exact) m->vertices_left -= shape->vertex_count;
