@@ -232,7 +232,12 @@ vec3 surface_light(surface s, light_sample l, float seen, float shine) {
     vec3 arriving = l.color * (surface_cosine(s, l) * seen);
     if (!SPECULAR) return arriving;
     vec3 h = l.to_light + s.to_eye;
-    float n_h = max(dot(s.normal, h) * inversesqrt(dot(h, h)), 0.0001); // pow(0, 0) is undefined
+#ifdef WITH_ENVIRONMENT // which needs both cosines anyway
+    float along = dot(s.normal, l.to_light) + dot(s.normal, s.to_eye);
+#else
+    float along = dot(s.normal, h);
+#endif
+    float n_h = max(along * inversesqrt(dot(h, h)), 0.0001); // pow(0, 0) is undefined
     if (SHADOW_SPECULAR)
         return s.diffuse * arriving + surface_highlight(s, n_h) * l.color * (surface_cosine(s, l) * shine);
     return (s.diffuse + surface_highlight(s, n_h)) * arriving;

@@ -12,7 +12,8 @@ vec3 tone_mapped(vec3 color) {
     float over = peak - start;
     float lost = over * over / (over + (1.0 - start));
     float left = 1.0 / (desaturation * lost + 1.0);
-    return mix(vec3(peak - lost), color * (1.0 - lost / peak), left);
+    float target = peak - lost; // the colour at this brightness, and by the rest grey of it
+    return color * (target / peak * left) + (target - target * left);
 }
 
 #elif defined WITH_TONE_ACES

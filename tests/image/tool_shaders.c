@@ -145,6 +145,7 @@ static bool write(const char *folder, const char *name, const struct gn_program_
 #define LOOK                                                                                       \
     (GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(SPECULAR) | GN_FEATURE(ENVIRONMENT) |                   \
      GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(TONE_NEUTRAL))
+#define LOOK_METAL (LOOK | GN_FEATURE(METAL) | GN_FEATURE(ROUGHNESS_TEXTURE))
 #define GLASS (GN_FEATURE(TRANSMISSION) | GN_FEATURE(TINTED))
 
 static struct gn_program_key tint(void) {
@@ -210,6 +211,9 @@ int main(int argc, char **argv) {
         {"pcf-aces", lit(FULL | GN_FEATURE(TONE_ACES), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-agx", lit(FULL | GN_FEATURE(TONE_AGX), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"look", lit(LOOK, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-metal", lit(LOOK_METAL, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
+        {"look-metal-key",
+         lit(LOOK_METAL | GN_FEATURE(ENVIRONMENT_KEY), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"look-coat", lit(LOOK | GN_FEATURE(COAT), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"look-normal-map",
          lit(LOOK | GN_FEATURE(NORMAL_TEXTURE), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
