@@ -42,6 +42,8 @@ static int report(bool ok, const struct gn_options *options, struct gn_warnings 
                   const struct gn_err *err) {
     if (ok || options->settings->run.verbose) gn_warn_print(warnings, stderr);
     if (ok) return GN_EXIT_OK;
+    for (int i = 0; options->errors && i < options->errors->count; i++)
+        fprintf(stderr, "gnomon: %s\n", options->errors->items[i].text);
     fprintf(stderr, "gnomon: %s\n", err->text);
     return err->status == GN_EXIT_OK ? GN_EXIT_RUNTIME : err->status;
 }

@@ -52,6 +52,21 @@ done
 expect 2 '--shadow: truth is for stills' --shadow truth assets/sundial.glb
 printf '[mode "Rays"]\nshadow = truth\n' > "$folder/truth.ini"
 expect 2 'truth.ini:2: shadow: truth is for stills' show --check "$folder/truth.ini"
+
+# all errors of a file, each on its line, then their number
+printf '[scene]\nfile = gone.glb\n[display]\nrotate = 7\n[mode "A"]\nshadow = pfc\n[mode "A"]\nfoo = 1\n[mode "B"]\nfile = gone.glb\n' > "$folder/many.ini"
+"$gnomon" show --check "$folder/many.ini" 2> "$folder/err"
+[ $? = 2 ] || complain 'many errors: not status 2'
+grep -qF 'many.ini: 4 errors' "$folder/err" || complain "many.ini: $(cat "$folder/err")"
+for error in 'many.ini:4: rotate' 'many.ini:6: shadow' 'many.ini:7: mode "A" is there already, in line 5' 'gone.glb: cannot open'; do
+    [ "$(grep -cF "$error" "$folder/err")" = 1 ] || complain "not once: $error"
+done
+[ "$(wc -l < "$folder/err")" = 5 ] || complain "many.ini: $(cat "$folder/err")"
+expect 2 '--here goes with --check FILE' show --here
+printf '[button "a"]\nline = no-such-line\nclick = next\n' > "$folder/here.ini"
+expect 0 '' show --check "$folder/here.ini"
+"$gnomon" show --check "$folder/here.ini" --here > "$folder/out" 2> "$folder/err" && complain '--here finds a line that is not there'
+grep -q 'button "a": ' "$folder/err" || complain "--here: $(cat "$folder/err")"
 expect 2 '--msaa 4: truth has one visibility for each pixel' render --shadow truth --msaa 4 -o "$folder/a.png"
 expect 1 'over the limit maps_mb=1' render --shadow truth --size 1024x1024 --limit maps_mb=1 -o "$folder/a.png"
 expect 1 'light 0 has no map: truth casts rays' render --shadow truth --aov map --size 8x8 -o "$folder/a.png"

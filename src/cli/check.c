@@ -18,6 +18,7 @@
 enum { SCENES_MAX = GN_SCENES_MAX + GN_MODES_MAX };
 
 struct check {
+    struct gn_errors *errors;
     struct gn_warnings *warnings;
     struct gn_scene_limits limits;
     const char *paths[SCENES_MAX];
@@ -25,19 +26,21 @@ struct check {
     int scene_count;
 };
 
+/* An error that was noted before has no text. */
+static void note(struct check *c, bool ok, struct gn_err *err) {
+    if (!ok && err->text[0]) gn_errors_take(c->errors, err);
+}
+
 /* ---- scenes --------------------------------------------------------------------------------- */
 
-/* Loaded once, however many modes show it. */
+/* Loaded once, however many modes show it. NULL without an error: it failed before. */
 static const struct gn_scene *scene_of(struct check *c, const struct gn_settings *settings,
                                        const char *path, struct gn_err *err) {
     for (int i = 0; i < c->scene_count; i++)
         if (c->paths[i] == path || (c->paths[i] && path && strcmp(c->paths[i], path) == 0))
             return c->scenes[i];
     struct gn_scene *scene = gn_stage_read(path, &c->limits, c->warnings, err);
-    if (!scene) {
-        gn_fail_prefix(err, "%s", gn_settings_label(settings, scene.path));
-        return NULL;
-    }
+    if (!scene) gn_fail_prefix(err, "%s", gn_settings_label(settings, scene.path));
     c->paths[c->scene_count] = path;
     c->scenes[c->scene_count++] = scene;
     return scene;
@@ -62,8 +65,7 @@ static bool check_look(struct check *c, const struct gn_settings *settings, cons
 static bool check_looks(struct check *c, const struct gn_settings *settings, struct gn_err *err) {
     const struct gn_scene_list *list = &settings->scene.list;
     struct gn_err why = {0};
-    for (int i = 0; i < list->count; i++)
-        if (!scene_of(c, settings, list->paths[i], err)) return false;
+    for (int i = 0; i < list->count; i++) note(c, scene_of(c, settings, list->paths[i], err), err);
     if (check_look(c, settings, list->paths[0], err)) return true;
     for (int i = 1; i < list->count; i++)
         if (check_look(c, settings, list->paths[i], &why)) {
@@ -78,7 +80,7 @@ static void check_lights(struct check *c, const struct gn_settings *s) {
     for (int k = 0; k < s->light_count && s->several_scenes; k++) {
         bool found = false;
         for (int n = 0; n < c->scene_count; n++)
-            for (uint32_t i = 0; i < c->scenes[n]->light_count; i++)
+            for (uint32_t i = 0; c->scenes[n] && i < c->scenes[n]->light_count; i++)
                 found |= gn_light_section_is_of(&s->lights[k], c->scenes[n], i);
         if (!found)
             gn_warn(c->warnings, "%s: light \"%s\": no scene has a light of that name",
@@ -91,20 +93,17 @@ static bool check_clip(const struct check *c, const char *button, const char *cl
                        struct gn_err *err) {
     struct gn_err why = {0};
     for (int i = 0; i < c->scene_count; i++)
-        if (gn_scene_find_clip(c->scenes[i], clip, &why) >= 0) return true;
+        if (!c->scenes[i] || gn_scene_find_clip(c->scenes[i], clip, &why) >= 0) return true;
     return gn_fail(err, "button \"%s\": play %s: %s", button, clip, why.text);
 }
 
-static bool check_clips(const struct check *c, const struct gn_buttons *buttons,
-                        struct gn_err *err) {
+static void check_clips(struct check *c, const struct gn_buttons *buttons, struct gn_err *err) {
     for (int i = 0; buttons && i < buttons->count; i++)
         for (int g = 0; g < GN_GESTURE_COUNT; g++) {
             const struct gn_binding *on = &buttons->items[i].on[g];
-            if (on->bound && on->action.kind == GN_ACTION_PLAY &&
-                !check_clip(c, buttons->items[i].opts.name, on->action.name, err))
-                return false;
+            if (on->bound && on->action.kind == GN_ACTION_PLAY)
+                note(c, check_clip(c, buttons->items[i].opts.name, on->action.name, err), err);
         }
-    return true;
 }
 
 /* ---- what else the settings name ------------------------------------------------------------ */
@@ -120,29 +119,38 @@ static bool check_device(const char *name, const char *label, struct gn_err *err
                          label, name);
 }
 
-static bool check_names(const struct gn_settings *s, struct gn_err *err) {
-    struct gn_font *font = s->render.font ? gn_font_open_file(s->render.font, err) : NULL;
-    gn_font_close(font);
-    if (s->render.font && !font)
-        return gn_fail_prefix(err, "%s", gn_settings_label(s, render.font));
-    if (s->kiosk.socket && !gn_listen_check(s->kiosk.socket, err))
-        return gn_fail_prefix(err, "%s", gn_settings_label(s, kiosk.socket));
-    const char *folder = s->kiosk.screenshots;
+static bool check_folder(const char *folder, const char *label, struct gn_err *err) {
     struct stat info;
     if (folder && stat(folder, &info) != 0)
-        return gn_fail(err, "%s: %s: cannot use it: %s", gn_settings_label(s, kiosk.screenshots),
-                       folder, strerror(errno));
-    if (folder && !S_ISDIR(info.st_mode))
-        return gn_fail(err, "%s: %s: is not a folder", gn_settings_label(s, kiosk.screenshots),
-                       folder);
-    /* as "HDMI-A-1": the kernel's names end with a number */
-    const char *name = s->display.connector, *dash = name ? strrchr(name, '-') : NULL;
-    if (name && (!dash || dash == name || !dash[1] || dash[1 + strspn(dash + 1, "0123456789")]))
-        return gn_fail_usage(
-            err, "%s: \"%s\" is not a connector such as HDMI-A-1; gnomon doctor lists them",
-            gn_settings_label(s, display.connector), name);
-    return check_device(s->display.card, gn_settings_label(s, display.card), err) &&
-           check_device(s->display.render_node, gn_settings_label(s, display.render_node), err);
+        return gn_fail(err, "%s: %s: cannot use it: %s", label, folder, strerror(errno));
+    return !folder || S_ISDIR(info.st_mode) ||
+           gn_fail(err, "%s: %s: is not a folder", label, folder);
+}
+
+/* As "HDMI-A-1": the kernel's names end with a number. */
+static bool check_connector(const char *name, const char *label, struct gn_err *err) {
+    const char *dash = name ? strrchr(name, '-') : NULL;
+    if (!name || (dash && dash != name && dash[1] && !dash[1 + strspn(dash + 1, "0123456789")]))
+        return true;
+    return gn_fail_usage(err,
+                         "%s: \"%s\" is not a connector such as HDMI-A-1; gnomon doctor lists them",
+                         label, name);
+}
+
+static void check_names(struct check *c, const struct gn_settings *s, struct gn_err *err) {
+    struct gn_font *font = s->render.font ? gn_font_open_file(s->render.font, err) : NULL;
+    gn_font_close(font);
+    if (s->render.font && !font) gn_fail_prefix(err, "%s", gn_settings_label(s, render.font));
+    note(c, !s->render.font || font, err);
+    const bool listens = !s->kiosk.socket || gn_listen_check(s->kiosk.socket, err);
+    if (!listens) gn_fail_prefix(err, "%s", gn_settings_label(s, kiosk.socket));
+    note(c, listens, err);
+    note(c, check_folder(s->kiosk.screenshots, gn_settings_label(s, kiosk.screenshots), err), err);
+    note(c, check_connector(s->display.connector, gn_settings_label(s, display.connector), err),
+         err);
+    note(c, check_device(s->display.card, gn_settings_label(s, display.card), err), err);
+    note(c, check_device(s->display.render_node, gn_settings_label(s, display.render_node), err),
+         err);
 }
 
 /* ---- what a kiosk makes of it
@@ -225,18 +233,40 @@ static void print_check(const struct check *c, const struct gn_options *o) {
     print_buttons(o);
 }
 
+/* One error is the program's one line; of several that line has the number. */
+static bool report_errors(struct gn_errors *errors, const char *path, struct gn_err *err) {
+    if (errors->count == 0) return true;
+    *err = errors->items[0];
+    if (errors->count == 1)
+        errors->count = 0;
+    else {
+        const enum gn_exit status = err->status;
+        gn_fail(err, "%s: %d errors%s", path, errors->count,
+                errors->dropped ? ", and more that are not listed" : "");
+        err->status = status;
+    }
+    return false;
+}
+
 bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings,
                   struct gn_err *err) {
-    struct check c = {.warnings = warnings};
+    struct check c = {.errors = options->errors, .warnings = warnings};
     struct gn_options again;
-    bool ok = gn_args_parse(&again, options->argc, options->argv, NULL, err);
-    if (ok) gn_options_run_as(&again, GN_COMMAND_RENDER); /* a missing camera or clip is an error */
-    ok = ok && gn_stage_limits(again.settings, &c.limits, err) &&
-         check_names(again.settings, err) && check_looks(&c, again.settings, err);
-    for (int i = 0; ok && i < again.mode_count; i++)
-        ok = check_names(&again.all[1 + i], err) && check_looks(&c, &again.all[1 + i], err);
-    ok = ok && check_clips(&c, options->buttons, err);
-    if (ok) check_lights(&c, again.settings);
+    if (gn_args_parse(&again, options->argc, options->argv, NULL, err)) {
+        gn_options_run_as(&again, GN_COMMAND_RENDER); /* a missing camera or clip is an error */
+        note(&c, gn_stage_limits(again.settings, &c.limits, err), err);
+        for (int i = 0; i <= again.mode_count; i++) {
+            const struct gn_settings *settings = i ? &again.all[i] : again.settings;
+            check_names(&c, settings, err);
+            note(&c, check_looks(&c, settings, err), err);
+        }
+        check_clips(&c, options->buttons, err);
+        check_lights(&c, again.settings);
+        if (again.settings->run.here) gn_cli_check_here(options, c.errors, warnings);
+    } else {
+        note(&c, false, err);
+    }
+    const bool ok = report_errors(c.errors, options->config_path, err);
     if (ok) print_check(&c, options);
     for (int i = 0; i < c.scene_count; i++) gn_scene_destroy(c.scenes[i]);
     gn_options_finish(&again);

@@ -18,4 +18,9 @@ gn_cli_command gn_cli_ctl, gn_cli_compare, gn_cli_score, gn_cli_lesson,
 bool gn_cli_show_here(const struct gn_options *options, bool *shown, struct gn_warnings *warnings,
                       struct gn_err *err);
 
+/* Whether this machine has what the settings ask for, of each mode: into the list of errors; what a
+ * kiosk waits for is a warning. */
+void gn_cli_check_here(const struct gn_options *options, struct gn_errors *errors,
+                       struct gn_warnings *warnings);
+
 #endif

@@ -111,6 +111,30 @@ static bool check_backends(struct gn_doctor_report *report, const struct gn_sett
     return true;
 }
 
+bool gn_doctor_look(struct gn_doctor_report *report, const struct gn_settings *settings,
+                    struct gn_err *err) {
+    const char *wanted = settings->display.backend;
+    struct answer *answer = gn_child_share(sizeof *answer, err);
+    if (!answer) return false;
+    *report = (struct gn_doctor_report){.chosen = -1};
+    gn_machine_read(&report->machine, "");
+    gn_input_list_lines(&report->input);
+    for (int i = 0; i < report->machine.device_count; i++) {
+        struct gn_device *device = &report->machine.devices[i];
+        if (device->kind == GN_DEVICE_CARD)
+            gn_display_holder(device->path, device->holder, sizeof device->holder);
+    }
+    const bool ok = check_backends(report, settings, answer, err);
+    for (int i = 0; i < report->backend_count && report->chosen < 0; i++) {
+        const struct gn_doctor_backend *b = &report->backends[i];
+        if (b->opens && (strcmp(wanted, "auto") == 0 || strcmp(wanted, b->name) == 0))
+            report->chosen = i;
+    }
+    gn_child_unshare(answer, sizeof *answer);
+    if (!ok) gn_input_list_finish(&report->input);
+    return ok;
+}
+
 static void self_test(struct gn_doctor_report *report, const struct gn_settings *settings,
                       struct answer *answer) {
     const char *name = report->backends[report->chosen].name;
@@ -158,33 +182,20 @@ bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warning
                    struct gn_err *err) {
     (void)warnings;
     const struct gn_settings *settings = options->settings;
-    struct gn_doctor_report report = {.chosen = -1};
+    struct gn_doctor_report report;
     struct answer *answer = gn_child_share(sizeof *answer, err);
     if (!answer) return false;
-    gn_machine_read(&report.machine, "");
-    gn_input_list_lines(&report.input);
-    for (int i = 0; i < report.machine.device_count; i++) {
-        struct gn_device *device = &report.machine.devices[i];
-        if (device->kind == GN_DEVICE_CARD)
-            gn_display_holder(device->path, device->holder, sizeof device->holder);
-    }
-    bool ok = check_backends(&report, settings, answer, err);
+    bool ok = gn_doctor_look(&report, settings, err);
     if (ok) {
-        const char *wanted = settings->display.backend;
-        for (int i = 0; i < report.backend_count && report.chosen < 0; i++) {
-            const struct gn_doctor_backend *b = &report.backends[i];
-            if (b->opens && (strcmp(wanted, "auto") == 0 || strcmp(wanted, b->name) == 0))
-                report.chosen = i;
-        }
         gn_doctor_diagnose(&report);
         if (settings->run.self_test && report.chosen >= 0) self_test(&report, settings, answer);
         if (settings->run.json)
             ok = gn_doctor_print_json(&report, stdout, err);
         else
             gn_doctor_print(&report, stdout);
+        ok = ok && judge_report(&report, settings, answer, err);
+        gn_input_list_finish(&report.input);
     }
-    ok = ok && judge_report(&report, settings, answer, err);
     gn_child_unshare(answer, sizeof *answer);
-    gn_input_list_finish(&report.input);
     return ok;
 }

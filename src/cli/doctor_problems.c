@@ -27,6 +27,12 @@ static void diagnose_device(struct gn_doctor_report *report, const struct gn_dev
                    device->path);
 }
 
+void gn_doctor_diagnose_devices(struct gn_doctor_report *report, enum gn_device_kind kind) {
+    for (int i = 0; i < report->machine.device_count; i++)
+        if (report->machine.devices[i].kind == kind)
+            diagnose_device(report, &report->machine.devices[i]);
+}
+
 static bool has_device(const struct gn_machine *m, enum gn_device_kind kind) {
     for (int i = 0; i < m->device_count; i++)
         if (m->devices[i].kind == kind) return true;
@@ -81,7 +87,8 @@ void gn_doctor_diagnose(struct gn_doctor_report *report) {
     if (report->chosen >= 0 && gn_caps_encodings(caps) == 1u << GN_ENCODING_RGBA8)
         gn_problem_add(&report->problems, "update Mesa or the GPU's driver",
                        "the GPU draws no map format but rgba8: shadows are slower");
-    for (int i = 0; i < m->device_count; i++) diagnose_device(report, &m->devices[i]);
+    for (int kind = GN_DEVICE_CARD; kind <= GN_DEVICE_GPIO; kind++)
+        gn_doctor_diagnose_devices(report, (enum gn_device_kind)kind);
     if (!has_card)
         gn_problem_add(
             &report->problems,

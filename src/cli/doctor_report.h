@@ -10,6 +10,7 @@
 #include "core/err.h"
 #include "frame/caps.h"
 #include "input/input.h"
+#include "options/settings.h"
 
 enum { GN_DOCTOR_BACKENDS = 8 };
 
@@ -30,10 +31,18 @@ struct gn_doctor_report {
     const struct gn_selftest *self_test; /* NULL: not asked for, or it did not start */
 };
 
+/* doctor.c: what the machine is and can do, without its problems. The caller finishes
+ * report->input. Fails only for wrong usage (an unknown name in --without), and without memory. */
+bool gn_doctor_look(struct gn_doctor_report *report, const struct gn_settings *settings,
+                    struct gn_err *err);
+
 /* doctor_problems.c: the problems that can be read off the machine and the backends, as filled so
  * far. */
 void gn_doctor_diagnose(struct gn_doctor_report *report);
 void gn_doctor_diagnose_input(struct gn_doctor_report *report); /* of buttons and keys alone */
+
+/* Those of this user's permissions for devices of one kind. */
+void gn_doctor_diagnose_devices(struct gn_doctor_report *report, enum gn_device_kind kind);
 
 void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
 /* One object:

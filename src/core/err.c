@@ -47,3 +47,15 @@ bool gn_fail_prefix(struct gn_err *err, const char *format, ...) {
     set_text(err, "%s: %s", prefix.text, said);
     return false;
 }
+
+bool gn_errors_take(struct gn_errors *errors, struct gn_err *err) {
+    if (!errors) return false;
+    int i = 0;
+    while (i < errors->count && strcmp(errors->items[i].text, err->text) != 0) i++;
+    if (i == GN_ERRORS_MAX)
+        errors->dropped++;
+    else if (i == errors->count)
+        errors->items[errors->count++] = *err;
+    *err = (struct gn_err){0};
+    return true;
+}

@@ -30,4 +30,14 @@ bool gn_fail_usage(struct gn_err *err, const char *format, ...)
 bool gn_fail_prefix(struct gn_err *err, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 
+/* All errors of what is checked to its end, instead of the first alone. */
+enum { GN_ERRORS_MAX = 64 };
+struct gn_errors {
+    int count, dropped; /* dropped: beyond GN_ERRORS_MAX */
+    struct gn_err items[GN_ERRORS_MAX];
+};
+/* Moves the error into the list, where equal ones are kept once, clears it and returns true: its
+ * finder goes on. errors NULL: leaves it where it is and returns false. */
+bool gn_errors_take(struct gn_errors *errors, struct gn_err *err);
+
 #endif

@@ -221,6 +221,7 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
                           (command == GN_COMMAND_CTL && !find_flag(args, "socket"));
     if (!named && !(searches && gn_config_find(found, sizeof found))) return true;
     struct gn_err why = {0};
+    if (check) options->errors = gn_arena_alloc(&options->arena, 1, sizeof *options->errors);
     if (gn_config_load(options, named ? named->text : found, &why)) return true;
     const bool is_show = command == GN_COMMAND_SHOW && !check;
     const bool is_ctl = command == GN_COMMAND_CTL && !(named && why.status != GN_EXIT_USAGE);
@@ -303,6 +304,8 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
         if (ok && s->run.mode && !options->config_error)
             ok = gn_options_choose(options, s->run.mode, err) ||
                  gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
+        if (ok && s->run.here && !s->run.check)
+            ok = gn_fail_usage(err, "--here goes with --check FILE");
         ok = ok && check_animation(options->settings, warnings, err);
     }
     options->argc = argc;

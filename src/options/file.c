@@ -199,8 +199,11 @@ bool gn_config_load_text(struct gn_options *options, const char *path, const cha
     options->modes = load.modes;
     options->config_path = gn_arena_strdup(&options->arena, path);
     if (!load.modes || !options->config_path) return gn_fail(err, "%s: no memory left", path);
-    return gn_ini_parse(path, text, size, on_line, &load, err) &&
-           (!load.buttons.buttons || gn_config_button_check(&load.buttons, options, path, err));
+    struct gn_errors *errors = options->errors;
+    if (!gn_ini_parse(path, text, size, on_line, &load, errors, err)) return false;
+    if (!load.buttons.buttons || (errors && errors->count))
+        return true; /* all may follow from those */
+    return gn_config_button_check(&load.buttons, options, path, err) || gn_errors_take(errors, err);
 }
 
 bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err) {

@@ -8,8 +8,9 @@ struct reader {
     const char *path, *at, *end;
     gn_ini_handler *handler;
     void *user;
+    struct gn_errors *errors;
     struct gn_err *err;
-    bool failed;
+    bool failed, skips; /* skips: the settings of a section that failed */
     int number;
     char where[300];
     char header[GN_INI_LINE_MAX + 1]; /* of the section, cut into its two names */
@@ -20,6 +21,12 @@ static bool refuse_line(struct reader *r, const char *what) {
     r->failed = true;
     gn_fail_usage(r->err, "%s: %s", r->where, what);
     return false;
+}
+
+/* After a success, or a failure that is only noted. */
+static bool goes_on(struct reader *r) {
+    if (r->failed && gn_errors_take(r->errors, r->err)) r->failed = false;
+    return !r->failed;
 }
 
 static bool is_blank(char c) { return c == ' ' || c == '\t'; }
@@ -87,11 +94,17 @@ static bool next_line(struct reader *r, char *line) {
 
 static char *read_line(char *out, int size, void *user) {
     struct reader *r = user;
-    char line[GN_INI_LINE_MAX + 1];
-    if (r->failed || r->at == r->end || !next_line(r, line)) return NULL;
-    if (!is_nothing(line) && !(line[0] == '[' ? read_header(r, line) : check_setting(r, line)))
-        return NULL;
-    snprintf(out, (size_t)size, "%s\n", line);
+    char line[GN_INI_LINE_MAX + 1] = "";
+    if (r->failed || r->at == r->end) return NULL;
+    bool ok = next_line(r, line);
+    if (ok && line[0] == '[') {
+        ok = read_header(r, line);
+        r->skips = !ok;
+    } else if (ok && !r->skips && !is_nothing(line)) {
+        ok = check_setting(r, line);
+    }
+    if (!ok && !goes_on(r)) return NULL;
+    snprintf(out, (size_t)size, "%s\n", ok && !r->skips ? line : "");
     return out;
 }
 
@@ -101,13 +114,18 @@ static int on_setting(void *user, const char *section, const char *key, const ch
     if (r->failed) return 0;
     struct gn_ini_line line = {r->where, r->number, r->section, r->name, key, value};
     r->failed = !r->handler(r->user, &line, r->err);
-    return !r->failed;
+    return goes_on(r);
 }
 
 bool gn_ini_parse(const char *path, const char *text, size_t size, gn_ini_handler *handler,
-                  void *user, struct gn_err *err) {
-    struct reader r = {
-        .path = path, .at = text, .end = text + size, .handler = handler, .user = user, .err = err};
+                  void *user, struct gn_errors *errors, struct gn_err *err) {
+    struct reader r = {.path = path,
+                       .at = text,
+                       .end = text + size,
+                       .handler = handler,
+                       .user = user,
+                       .errors = errors,
+                       .err = err};
     int bad_line = ini_parse_stream(read_line, &r, on_setting, &r);
     if (r.failed) return false;
     if (bad_line == 0) return true;

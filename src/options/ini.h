@@ -23,9 +23,10 @@ struct gn_ini_line {
 typedef bool gn_ini_handler(void *user, const struct gn_ini_line *line, struct gn_err *err);
 
 /* Calls the handler for every section and every setting, in order, and stops at the first that
- * fails. All texts live only during the call. path is for messages, which are usage errors and
- * begin with "path:line: ". */
+ * fails. With errors, which may be NULL, it takes them and goes on; the settings of a section that
+ * failed are skipped. All texts live only during the call. path is for messages, which are usage
+ * errors and begin with "path:line: ". */
 bool gn_ini_parse(const char *path, const char *text, size_t size, gn_ini_handler *handler,
-                  void *user, struct gn_err *err);
+                  void *user, struct gn_errors *errors, struct gn_err *err);
 
 #endif

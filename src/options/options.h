@@ -29,6 +29,8 @@ struct gn_options {
     const char
         *config_error; /* why the file was not used and `show` runs with the defaults, or NULL */
 
+    struct gn_errors *errors; /* --check: all of the file, which is read to its end; else NULL */
+
     const char *const
         *words; /* of ctl: its command and arguments; of compare and score: files; argv's */
     int word_count;

@@ -172,6 +172,8 @@ GN_OPTION(.name = "config", .letter = 'c', .kind = GN_KIND_PATH, .value = "FILE"
           .help = "read this INI file", .commands = DRAW | BIT(INSPECT) | BIT(CTL), .offset = FIELD(run.config))
 GN_OPTION(.name = "check", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "check this INI file and the files it names, print the resulting settings", .commands = BIT(SHOW), .offset = FIELD(run.check))
+GN_OPTION(.name = "here", .kind = GN_KIND_FLAG,
+          .help = "with --check: also whether this machine has the lines, the connector, the mode and the map formats", .commands = BIT(SHOW), .offset = FIELD(run.here))
 GN_OPTION(.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(run.mode))
 GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",

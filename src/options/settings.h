@@ -154,6 +154,7 @@ struct gn_run_settings { /* of this run of the program: flags only */
     const char *input_script;
     const char *config, *mode, *out;
     const char *check;   /* a configuration file that is only checked, or NULL */
+    bool here;           /* check: on this machine, too */
     const char *caption; /* text on the picture, or NULL */
     int frames;
     double fps;

@@ -105,8 +105,8 @@ static double off_at(const struct gn_bvh *bvh, const struct gn_ray_eye *eye, dou
 }
 
 /* Compares distances at a time; *worst: largest error. Where surfaces meet along an edge, a pixel
- * may show either. */
-static void compare_at(const char *path, int clip, double time_s, double *worst, double *edges) {
+ * may show either. Returns how many pixels show the model. */
+static int compare_at(const char *path, int clip, double time_s, double *worst, double *edges) {
     struct gn_posed posed;
     struct gn_bvh bvh;
     assert_true(gn_posed_read(&posed, path, clip, time_s));
@@ -132,10 +132,10 @@ static void compare_at(const char *path, int clip, double time_s, double *worst,
             print_message("%s at %g s: pixel %d %d is at %g, off by %.2g\n", path, time_s,
                           i % WIDTH, i / WIDTH, drawn, off);
     }
-    assert_true(seen > 300);
-    *edges = fmax(*edges, (double)on_edge / seen);
+    *edges = fmax(*edges, (double)on_edge / fmax(seen, 1));
     gn_picture_finish(&shot);
     gn_bvh_finish(&bvh);
+    return seen;
 }
 
 /* At ten times of each clip, or at three of the first two. */
@@ -147,13 +147,15 @@ static void compare_clips(const char *path, double most_edge) {
     gn_posed_finish(&posed);
     for (int clip = clips ? 0 : -1; clip < (full || clips < 2 ? clips : 2); clip++) {
         double worst = 0, edges = 0;
+        int seen = 0;
         assert_true(gn_posed_read(&posed, path, clip, 0));
         const double last_s = posed.last_s;
         gn_posed_finish(&posed);
         for (int i = 0; i < times; i++)
-            compare_at(path, clip, last_s * (i + .37) / times, &worst, &edges);
+            seen += compare_at(path, clip, last_s * (i + .37) / times, &worst, &edges);
         print_message("%s, clip %d: off by %.2g of its size, %.2g %% on edges\n",
                       strrchr(path, '/') + 1, clip, worst, 100 * edges);
+        assert_true(seen > 300 * times); /* the framing is for the clip: SimpleMorph begins small */
         assert_true(worst < MOST_OFF);
         assert_true(edges <= most_edge);
         if (clip < 0) break;

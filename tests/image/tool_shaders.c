@@ -146,7 +146,7 @@ static bool write(const char *folder, const char *name, const struct gn_program_
     (GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(SPECULAR) | GN_FEATURE(ENVIRONMENT) |                   \
      GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(TONE_NEUTRAL))
 #define LOOK_METAL (LOOK | GN_FEATURE(METAL) | GN_FEATURE(ROUGHNESS_TEXTURE))
-#define GLASS (GN_FEATURE(TRANSMISSION) | GN_FEATURE(TINTED))
+#define GLASS      (GN_FEATURE(TRANSMISSION) | GN_FEATURE(TINTED))
 
 static struct gn_program_key tint(void) {
     struct gn_program_key key = {.kind = GN_PROGRAM_LIT,

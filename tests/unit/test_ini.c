@@ -32,7 +32,26 @@ static bool note(void *user, const struct gn_ini_line *line, struct gn_err *e) {
 static bool read_text(const char *text) {
     seen[0] = '\0';
     err = (struct gn_err){0};
-    return gn_ini_parse("f.ini", text, strlen(text), note, NULL, &err);
+    return gn_ini_parse("f.ini", text, strlen(text), note, NULL, NULL, &err);
+}
+
+/* The settings of a section that failed are skipped. */
+static void errors_are_collected(void **state) {
+    static const char text[] = "[a]\nx = 1\nbad\ny = fail\n[b\nz = 2\n[c]\nw = 3\n";
+    struct gn_errors *errors = calloc(1, sizeof *errors);
+    (void)state;
+    seen[0] = '\0';
+    err = (struct gn_err){0};
+    assert_true(gn_ini_parse("f.ini", text, strlen(text), note, NULL, errors, &err));
+    assert_int_equal(errors->count, 3);
+    assert_non_null(strstr(errors->items[0].text, "f.ini:3: expected KEY"));
+    assert_string_equal(errors->items[1].text, "told to");
+    assert_non_null(strstr(errors->items[2].text, "f.ini:5: a section ends with ]"));
+    assert_string_equal(err.text, "");
+    assert_non_null(strstr(seen, "2 [a|] x=1\n"));
+    assert_null(strstr(seen, "z=2"));
+    assert_non_null(strstr(seen, "8 [c|] w=3\n"));
+    free(errors);
 }
 
 static void assert_refused(const char *text, const char *says) {
@@ -98,7 +117,7 @@ static void long_lines_and_names_are_refused_not_cut(void **state) {
 
 static void a_zero_byte_is_refused(void **state) {
     (void)state;
-    assert_false(gn_ini_parse("f.ini", "[a]\nk=\0v\n", 9, note, NULL, &err));
+    assert_false(gn_ini_parse("f.ini", "[a]\nk=\0v\n", 9, note, NULL, NULL, &err));
     assert_non_null(strstr(err.text, "f.ini:2: control"));
 }
 
@@ -409,6 +428,7 @@ int main(void) {
         cmocka_unit_test(long_lines_and_names_are_refused_not_cut),
         cmocka_unit_test(a_zero_byte_is_refused),
         cmocka_unit_test(the_first_failure_stops),
+        cmocka_unit_test(errors_are_collected),
         cmocka_unit_test(the_file_of_the_manual_is_read),
         cmocka_unit_test(a_flag_beats_a_mode_beats_the_file),
         cmocka_unit_test(a_mode_may_show_the_maps),
