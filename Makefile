@@ -160,7 +160,7 @@ COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 # ---- what there is to build ----------------------------------------------------------------
 # x.c needs the package x and x_none.c stands in for it: the list of such pairs
 OPTIONAL := src/display/osmesa:osmesa src/display/window/window:glfw3 src/caption/font_file:freetype2 \
-            src/image/webp_read:libwebp \
+            src/image/webp_read:libwebp src/image/webp_write:libwebp \
             src/core/syscall_filter:libseccomp
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\
@@ -174,7 +174,7 @@ SECCOMP_LIBS := $(shell $(PKG) --libs libseccomp 2> /dev/null)
 # meshes compressed by meshoptimizer; its Debian packages have no .pc
 MESHOPT := $(shell $(CC) -E -include meshoptimizer.h -x c /dev/null > /dev/null 2>&1 && echo -lmeshoptimizer)
 LIBS    += $(MESHOPT)
-unused  := $(without) src/scene/gltf/$(if $(MESHOPT),meshopt_none.c,meshopt.c) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
+unused  := $(without) src/scene/gltf/$(if $(MESHOPT),meshopt_none.c,meshopt.c) src/bake/$(if $(MESHOPT),reorder_none.c,reorder.c) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/import/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
 PROG_C  := $(foreach d,unit plan image fuzz kms angle modelviewer tangents,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))

@@ -36,6 +36,8 @@ const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
     [GN_COMMAND_SCORE] = {"gnomon score picture.pfm --truth field-sun-00",
                           "gnomon score build/benchmark/pcf --csv"},
     [GN_COMMAND_LESSON] = {"gnomon lesson position", "gnomon lesson all -o lessons"},
+    [GN_COMMAND_BAKE] = {"gnomon bake scene.glb -o board.glb",
+                         "gnomon bake scan.obj -o board.glb --simplify 0.25 --texture-limit 1024"},
 };
 
 /* ---- texts --------------------------------------------------------------------------------- */

@@ -83,6 +83,24 @@ bool gn_picture_encode_png8(const uint8_t *rgb, int width_px, int height_px, str
            gn_fail(err, "out of memory for a picture of %d x %d", width_px, height_px);
 }
 
+bool gn_picture_encode_png_rgba(const uint8_t *rgba, int width_px, int height_px,
+                                struct gn_bytes *out, struct gn_err *err) {
+    const size_t count = (size_t)width_px * (size_t)height_px;
+    bool opaque = true;
+    for (size_t i = 0; i < count; i++) opaque &= rgba[4 * i + 3] == 255;
+    const size_t channels = opaque ? 3 : 4;
+    uint8_t *rows = malloc(count * channels);
+    *out = (struct gn_bytes){0};
+    if (!rows) return gn_fail(err, "PNG: out of memory");
+    for (size_t i = 0; i < count; i++) memcpy(rows + channels * i, rgba + 4 * i, channels);
+    struct buffer buffer =
+        encode_png(rows, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, 8,
+                   (size_t)width_px * channels, width_px, height_px, false);
+    free(rows);
+    *out = (struct gn_bytes){buffer.data, buffer.size};
+    return !buffer.full || gn_fail(err, "PNG: out of memory");
+}
+
 bool gn_picture_write_png8(const char *path, const uint8_t *rgba, int width_px, int height_px,
                            bool srgb, struct gn_err *err) {
     size_t count = (size_t)width_px * (size_t)height_px;

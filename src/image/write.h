@@ -28,6 +28,16 @@ bool gn_picture_write_png8_alpha(const char *path, const uint8_t *rgba, int widt
  * May run in any thread. */
 bool gn_picture_encode_png8(const uint8_t *rgb, int width_px, int height_px, struct gn_bytes *out,
                             struct gn_err *err);
+/* From RGBA, in memory likewise. PNG: without an alpha that is 255 everywhere, of no colour space;
+ * JPEG: without alpha, quality 92, colour at full resolution; WebP: lossless, or of that quality.
+ */
+bool gn_picture_encode_png_rgba(const uint8_t *rgba, int width_px, int height_px,
+                                struct gn_bytes *out, struct gn_err *err);
+bool gn_picture_encode_jpeg(const uint8_t *rgba, int width_px, int height_px, struct gn_bytes *out,
+                            struct gn_err *err);
+bool gn_picture_encode_webp(const uint8_t *rgba, int width_px, int height_px, bool lossless,
+                            struct gn_bytes *out, struct gn_err *err);
+bool gn_webp_is_lossless(const uint8_t *data, size_t size);
 bool gn_picture_write_png16_grey(const char *path, const float *grey, int width_px, int height_px,
                                  struct gn_err *err);
 /* channels: 1 or 3 */

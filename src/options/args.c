@@ -123,7 +123,7 @@ static bool fail_command(const char *word, struct gn_err *err) {
     return gn_fail_usage(
         err,
         "\"%.80s\" is neither a command nor a file; the commands are show, "
-        "render, bench, inspect, doctor, ctl, compare, score, lesson, help, version",
+        "render, bench, inspect, doctor, ctl, compare, score, lesson, bake, help, version",
         word);
 }
 
@@ -180,6 +180,8 @@ static bool choose_command(struct args *args, struct gn_err *err) {
         return gn_fail_usage(err, "compare: expected two pictures, A and B");
     if (command == GN_COMMAND_LESSON && args->word_count != 2)
         return gn_fail_usage(err, "lesson: expected list, all or the name of a lesson");
+    if (command == GN_COMMAND_BAKE && args->word_count != 2)
+        return gn_fail_usage(err, "bake: expected one scene");
     if (command == GN_COMMAND_DOCTOR && args->words[1])
         return gn_fail_usage(err, "doctor takes no scene: unexpected argument \"%.80s\"",
                              args->words[1]);

@@ -89,7 +89,7 @@ GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value =
 GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value = "CAP,..",
           .help = "do not use these GPU capabilities, named as doctor prints them", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
 GN_OPTION(.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
-          .help = "limit on the size of a scene, or on the processor time that loading one may take; may be repeated", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
+          .help = "limit on the size of a scene, or on the processor time that loading one may take; may be repeated", .commands = DRAW | BIT(INSPECT) | BIT(BAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
 /* the light made for a scene without any; those of_light are of any other too */
 GN_OPTION(.name = "light-azimuth", .key = "azimuth", .section = "light", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "where the made light comes from: 0 from the front (+Z), 90 from +X, as the scene stands; with --light-follow camera 0 from the camera, 90 from its right", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.azimuth_deg))
@@ -177,7 +177,11 @@ GN_OPTION(.name = "here", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(run.mode))
 GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder", .commands = BIT(RENDER) | BIT(LESSON), .offset = FIELD(run.out))
+          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.out))
+GN_OPTION(.name = "simplify", .kind = GN_KIND_NUMBER, .min = 0.001, .max = 1, .value = "RATIO", .fallback = "1",
+          .help = "keep this share of each mesh's triangles, or more where it would move by over 1/50 of its size", .commands = BIT(BAKE), .offset = FIELD(run.simplify))
+GN_OPTION(.name = "texture-limit", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels", .fallback = "2048",
+          .help = "scale textures down to this width and height at most; smaller ones stay as they are", .commands = BIT(BAKE), .offset = FIELD(run.texture_limit_px))
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
           .help = "draw this text on the picture, as the kiosk does with an error", .commands = BIT(RENDER), .offset = FIELD(run.caption))
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",
@@ -203,7 +207,7 @@ GN_OPTION(.name = "reach", .kind = GN_KIND_NUMBER, .max = 1000, .value = "TEXELS
 GN_OPTION(.name = "make-truth", .kind = GN_KIND_FLAG,
           .help = "cast the rays of the scene that --truth names, and write the truth beside it", .commands = BIT(SCORE), .offset = FIELD(run.make_truth))
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,
-          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE) | BIT(LESSON), .offset = FIELD(run.json))
+          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.json))
 GN_OPTION(.name = "csv", .kind = GN_KIND_FLAG,
           .help = "print CSV: a line for each scene and technique, or picture and class", .commands = BIT(BENCH) | BIT(SCORE), .offset = FIELD(run.csv))
 GN_OPTION(.name = "move-lights", .kind = GN_KIND_FLAG,

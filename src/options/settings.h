@@ -164,6 +164,8 @@ struct gn_run_settings { /* of this run of the program: flags only */
     const char *truth, *benchmark; /* of score: a scene's name, or NULL; the folder of scenes */
     double reach;                  /* of score: of a filter, texels */
     bool make_truth;               /* of score */
+    double simplify;               /* of bake: share of the triangles */
+    int texture_limit_px;          /* of bake */
     bool csv, move_lights, move_casters; /* of bench */
     bool plan, json, self_test, stats, verbose, version, help;
 };

@@ -106,6 +106,8 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
     [GN_COMMAND_LESSON] =
         {"lesson", "lesson [OPTION..] list|NAME|all",
          "shows a fault of shadows and its cures; with -o as a page of pictures and figures"},
+    [GN_COMMAND_BAKE] = {"bake", "bake [OPTION..] SCENE -o FILE.glb",
+                         "writes a scene as one small .glb that boards load and draw fast"},
 };
 
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {

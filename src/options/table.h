@@ -17,6 +17,7 @@ enum gn_command {
     GN_COMMAND_COMPARE,
     GN_COMMAND_SCORE,
     GN_COMMAND_LESSON,
+    GN_COMMAND_BAKE,
     GN_COMMAND_COUNT,
 };
 struct gn_command_row {

@@ -105,8 +105,7 @@ struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t
     return load_scene(&g, data, size);
 }
 
-/* Of the file; NULL: none that can be reached. To be freed. */
-static char *real_folder(const char *path) {
+char *gn_scene_folder(const char *path) {
     const char *slash = strrchr(path, '/');
     char folder[PATH_MAX] = ".";
     size_t length = slash == path ? 1 : slash ? (size_t)(slash - path) : strlen(folder);
@@ -127,7 +126,7 @@ struct gn_scene *gn_scene_load_converted(const char *path, const void *data, siz
                                          struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_gltf g = {.path = path, .warnings = warnings, .err = err};
     g.limits = gn_scene_limits_or_default(limits);
-    g.folder = real_folder(path);
+    g.folder = gn_scene_folder(path);
     return load_scene(&g, data, size);
 }
 
@@ -137,7 +136,7 @@ struct gn_scene *gn_scene_load(const char *path, const struct gn_scene_limits *l
     g.limits = gn_scene_limits_or_default(limits);
     struct gn_bytes bytes = {0};
     if (!read_model(&g, &bytes)) return NULL;
-    g.folder = real_folder(path);
+    g.folder = gn_scene_folder(path);
     struct gn_scene *scene = load_scene(&g, bytes.data, bytes.size);
     gn_bytes_finish(&bytes);
     return scene;

@@ -39,6 +39,7 @@ struct gn_accessor {
     size_t stride, count;
     enum gn_component component;
     uint8_t components; /* of one element: 1 for SCALAR .. 16 for MAT4 */
+    uint8_t columns;    /* of a matrix; else 1 */
     bool normalized;
     bool backed;   /* has a bufferView or sparse values; else it is all zeros */
     bool resolved; /* checked by gn_gltf_accessor() */
@@ -228,6 +229,9 @@ bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
 
 /* ---- helpers ---- */
 
+/* load.c: of the file; NULL: none that can be reached. To be freed. */
+char *gn_scene_folder(const char *path);
+
 /* missing.c: notes the extensions of a material that is shown; then the list of all. */
 void gn_missing_of_material(struct gn_gltf *g, const struct gn_at *material);
 bool gn_missing_list(struct gn_gltf *g);
@@ -249,6 +253,8 @@ void gn_blob_finish(struct gn_gltf *g, struct gn_blob *blob);
 /* gltf/accessor.c. The file's accessor of that number, checked, or NULL (-1 or failed); sparse ones
  * are made dense here. */
 const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index);
+/* Bytes of an element, with the padding between the columns of a matrix. */
+size_t gn_accessor_element_size(const struct gn_accessor *a);
 /* All elements as floats, normalised as the accessor says, into out: components x count of them;
  * missing components stay as they are. */
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out);

@@ -123,8 +123,9 @@ static void read_log(int fd, struct gn_warnings *warnings, struct gn_err *err) {
     if (text) munmap(text, size);
 }
 
-struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
-                                struct gn_warnings *warnings, struct gn_err *err) {
+/* The output of gnomon-import, to be unmapped; NULL: it failed. */
+static char *run_import(const char *path, const struct gn_scene_limits *limits, size_t *size,
+                        struct gn_warnings *warnings, struct gn_err *err) {
     char program[4096];
     if (!find_program(program, sizeof program)) {
         gn_fail(err,
@@ -141,7 +142,7 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
                       .seconds = limits->seconds,
                       .glb = memfd_create("gnomon-glb", MFD_CLOEXEC),
                       .log = memfd_create("gnomon-log", MFD_CLOEXEC)};
-    struct gn_scene *scene = NULL;
+    char *glb = NULL;
     if (job.glb < 0 || job.log < 0)
         gn_fail(err, "%s: no memory to import it: %s", path, strerror(errno));
     else {
@@ -151,21 +152,38 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
                                        .stall_s = (int)gn_scene_limits_or_default(limits).seconds +
                                                   GRACE_S};
         struct gn_err end = {0}, reported = {0};
-        size_t size = 0;
         const bool ok = gn_child_run(&child, NULL, &end);
         read_log(job.log, warnings, &reported);
-        char *glb = ok ? map_memfd(job.glb, &size) : NULL;
-        if (glb)
-            scene = gn_scene_load_converted(path, glb, size, limits, warnings, err);
-        else if (ok)
+        glb = ok ? map_memfd(job.glb, size) : NULL;
+        if (ok && !glb)
             gn_fail(err, "%s: " PROGRAM " wrote no output", path);
-        else if (reported.text[0])
+        else if (!ok && reported.text[0])
             gn_fail(err, "%s", reported.text);
-        else
+        else if (!ok)
             gn_fail(err, "%s: " PROGRAM " %s; export it as .glb where it was made", path, end.text);
-        if (glb) munmap(glb, size);
     }
     if (job.glb >= 0) close(job.glb);
     if (job.log >= 0) close(job.log);
+    return glb;
+}
+
+struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
+                                struct gn_warnings *warnings, struct gn_err *err) {
+    size_t size = 0;
+    char *glb = run_import(path, limits, &size, warnings, err);
+    if (!glb) return NULL;
+    struct gn_scene *scene = gn_scene_load_converted(path, glb, size, limits, warnings, err);
+    munmap(glb, size);
     return scene;
+}
+
+bool gn_import_convert(const char *path, const struct gn_scene_limits *limits,
+                       struct gn_bytes *out, struct gn_warnings *warnings, struct gn_err *err) {
+    size_t size = 0;
+    char *glb = run_import(path, limits, &size, warnings, err);
+    if (!glb) return false;
+    *out = (struct gn_bytes){.data = malloc(size), .size = size};
+    if (out->data) memcpy(out->data, glb, size);
+    munmap(glb, size);
+    return out->data || gn_fail(err, "%s: out of memory", path);
 }

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 
+#include "core/file.h"
 #include "scene/scene.h"
 
 /* Does the name have the suffix of such a format (.obj .fbx .stl .ply .dae)? */
@@ -16,5 +17,8 @@ bool gn_import_wants_refused(const char *path, const struct gn_scene_limits *lim
  * if it crashes, runs out of time or memory, the import fails. Leaves no file on disk. */
 struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
                                 struct gn_warnings *warnings, struct gn_err *err);
+/* The same, but the bytes of the .glb, which gn_bytes_finish() frees. */
+bool gn_import_convert(const char *path, const struct gn_scene_limits *limits,
+                       struct gn_bytes *out, struct gn_warnings *warnings, struct gn_err *err);
 
 #endif

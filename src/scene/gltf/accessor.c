@@ -123,6 +123,13 @@ static bool apply_sparse(struct gn_gltf *g, const struct gn_at *sparse, struct g
 
 /* ---- whole accessors ---- */
 
+/* The columns of a matrix start at multiples of four bytes. */
+size_t gn_accessor_element_size(const struct gn_accessor *a) {
+    size_t column = (size_t)a->components / a->columns * component_size(a->component);
+    if (a->columns > 1) column = (column + 3) / 4 * 4;
+    return column * a->columns;
+}
+
 static bool resolve_accessor(struct gn_gltf *g, const struct gn_at *at, struct gn_accessor *a) {
     const struct shape *shape = NULL;
     const char *name = gn_at_text(g, at, "type");
@@ -133,15 +140,13 @@ static bool resolve_accessor(struct gn_gltf *g, const struct gn_at *at, struct g
         return gn_gltf_fail(g, &type, "'%.20s' is none of SCALAR, VEC2-4, MAT2-4",
                             name ? name : "");
     if (!read_component(g, at, &a->component)) return false;
-    /* the columns of a matrix start at multiples of four bytes */
-    size_t column = shape->components / shape->columns * component_size(a->component);
-    if (shape->columns > 1) column = (column + 3) / 4 * 4;
+    a->components = shape->components;
+    a->columns = shape->columns;
     struct span span = {.view = gn_at_ref(g, at, "bufferView", g->file.view_count, "bufferViews"),
                         .offset = gn_at_uint(g, at, "byteOffset", 0),
                         .count = gn_at_uint(g, at, "count", 0),
-                        .element = column * shape->columns};
+                        .element = gn_accessor_element_size(a)};
     a->normalized = gn_at_flag(g, at, "normalized", false);
-    a->components = shape->components;
     a->backed = span.view >= 0;
     if (g->failed) return false;
     if (span.count == 0) return gn_gltf_fail(g, &count, "must be at least 1");

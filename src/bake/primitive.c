@@ -1,0 +1,253 @@
+/* One primitive: reads its attributes, merges equal vertices, orders triangles and vertices, and
+ * writes all of it anew. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bake/private.h"
+#include "bake/reorder.h"
+
+enum { MODE_TRIANGLES = 4, MODE_STRIP, MODE_FAN };
+enum { SIMPLIFIED_TRIANGLES = 32 }; /* meshes with fewer stay as they are */
+#define SIMPLIFY_ERROR .02f         /* of the size of the mesh, at most */
+
+struct primitive {
+    struct gn_baker *b;
+    json_t *json;
+    struct gn_stream *streams; /* attributes, then those of the targets */
+    struct gn_stream_bytes *bytes;
+    size_t stream_count;
+    float *positions;
+    uint32_t *corners, *remap;
+    size_t corner_count, vertex_count;
+};
+
+/* ---- reading ---- */
+
+static json_t *targets_of(const struct primitive *p) { return json_object_get(p->json, "targets"); }
+
+static size_t count_streams(const struct primitive *p) {
+    size_t count = json_object_size(json_object_get(p->json, "attributes")), i;
+    const json_t *target;
+    json_array_foreach(targets_of(p), i, target) count += json_object_size(target);
+    return count;
+}
+
+static bool read_set(struct primitive *p, json_t *set, int target, const struct gn_grid *grid) {
+    const bool alone = !json_object_get(set, "WEIGHTS_1");
+    const char *semantic;
+    json_t *value;
+    json_object_foreach(set, semantic, value) {
+        struct gn_stream *s = &p->streams[p->stream_count];
+        const int64_t accessor = gn_bake_number(set, semantic);
+        struct gn_elements e;
+        if (accessor < 0)
+            return gn_bake_fail(p->b, "attribute %.40s is no index of an accessor", semantic);
+        if (!gn_document_accessor(p->b->in, (size_t)accessor, &e)) return !(p->b->failed = true);
+        if (e.count != p->vertex_count)
+            return gn_bake_fail(p->b, "accessors[%lld] (%.40s): %zu elements, but POSITION has %zu",
+                                (long long)accessor, semantic, e.count, p->vertex_count);
+        *s = (struct gn_stream){
+            .accessor = (size_t)accessor, .target = target, .semantic = semantic};
+        if (!gn_stream_read(p->b, grid, alone, s)) return false;
+        p->bytes[p->stream_count++] = (struct gn_stream_bytes){s->data, s->stride};
+    }
+    return true;
+}
+
+static bool read_streams(struct primitive *p, size_t position, const struct gn_grid *grid) {
+    const size_t most = count_streams(p);
+    p->streams = gn_bake_alloc(p->b, most, sizeof *p->streams);
+    p->bytes = gn_bake_alloc(p->b, most, sizeof *p->bytes);
+    p->positions = gn_bake_alloc(p->b, p->vertex_count, 3 * sizeof *p->positions);
+    p->remap = gn_bake_alloc(p->b, p->vertex_count, 2 * sizeof *p->remap);
+    if (p->b->failed) return false;
+    gn_document_floats(p->b->in, position, 3, p->positions);
+    if (!read_set(p, json_object_get(p->json, "attributes"), -1, grid)) return false;
+    json_t *target;
+    size_t i;
+    json_array_foreach(targets_of(p), i, target) if (!read_set(p, target, (int)i, grid)) return false;
+    return true;
+}
+
+/* The vertices of triangle t as they are wound (glTF 2.0, 3.7.2.1). */
+static void triangle_of(int64_t mode, const uint32_t *raw, size_t t, uint32_t out[3]) {
+    const size_t odd = t % 2;
+    if (mode == MODE_TRIANGLES)
+        memcpy(out, raw + 3 * t, 3 * sizeof *out);
+    else if (mode == MODE_STRIP)
+        memcpy(out, (uint32_t[]){raw[t], raw[t + 1 + odd], raw[t + 2 - odd]}, 3 * sizeof *out);
+    else
+        memcpy(out, (uint32_t[]){raw[t + 1], raw[t + 2], raw[0]}, 3 * sizeof *out);
+}
+
+/* Triangles with two equal corners show nothing. */
+static size_t drop_flat(uint32_t *corners, size_t count) {
+    size_t kept = 0;
+    for (size_t i = 0; i + 2 < count; i += 3) {
+        const uint32_t *v = corners + i;
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+        memmove(corners + kept, v, 3 * sizeof *v);
+        kept += 3;
+    }
+    return kept;
+}
+
+static bool read_corners(struct primitive *p, int64_t mode) {
+    struct gn_baker *b = p->b;
+    const int64_t index = gn_bake_number(p->json, "indices");
+    struct gn_elements e = {.count = p->vertex_count};
+    if (index >= 0 && !gn_document_accessor(b->in, (size_t)index, &e)) return !(b->failed = true);
+    uint32_t *raw = gn_bake_alloc(b, e.count, sizeof *raw);
+    const size_t triangles = mode == MODE_TRIANGLES ? e.count / 3 : e.count > 2 ? e.count - 2 : 0;
+    p->corners = gn_bake_alloc(b, triangles, 3 * sizeof *p->corners);
+    if (b->failed) return false;
+    for (size_t i = 0; i < e.count; i++) raw[i] = (uint32_t)i;
+    if (index >= 0 && !gn_document_indices(b->in, (size_t)index, raw)) return !(b->failed = true);
+    for (size_t i = 0; i < e.count; i++)
+        if (raw[i] >= p->vertex_count)
+            return gn_bake_fail(b, "accessors[%lld]: element %zu is vertex %u, but there are %zu",
+                                (long long)index, i, raw[i], p->vertex_count);
+    for (size_t t = 0; t < triangles; t++) triangle_of(mode, raw, t, p->corners + 3 * t);
+    b->report->triangles_before += triangles;
+    p->corner_count = drop_flat(p->corners, 3 * triangles);
+    return true;
+}
+
+/* ---- ordering ---- */
+
+static void move_vertices(struct primitive *p, size_t count) {
+    for (size_t i = 0; i < p->stream_count; i++)
+        gn_reorder_vertices(&p->bytes[i], p->vertex_count, p->remap);
+    const struct gn_stream_bytes positions = {(uint8_t *)p->positions, 3 * sizeof(float)};
+    gn_reorder_vertices(&positions, p->vertex_count, p->remap);
+    gn_reorder_corners(p->corners, p->corner_count, p->remap);
+    p->vertex_count = count;
+}
+
+/* Blending shows the triangles of a material in their order. */
+static bool is_blended(const struct gn_baker *b, int64_t material) {
+    const json_t *list = json_object_get(b->root, "materials");
+    const json_t *json = material < 0 ? NULL : json_array_get(list, (size_t)material);
+    const char *mode = json_string_value(json_object_get(json, "alphaMode"));
+    return mode && strcmp(mode, "BLEND") == 0;
+}
+
+static bool keeps_order(const struct primitive *p) {
+    const json_t *variants = gn_bake_extension(p->json, "KHR_materials_variants"), *mapping;
+    bool blends = is_blended(p->b, gn_bake_number(p->json, "material"));
+    size_t i;
+    json_array_foreach(json_object_get(variants, "mappings"), i, mapping) blends |=
+        is_blended(p->b, gn_bake_number(mapping, "material"));
+    return blends;
+}
+
+static void simplify(struct primitive *p, bool locks_border) {
+    const double share = p->b->opts->share;
+    const size_t triangles = p->corner_count / 3;
+    if (share >= 1 || triangles < SIMPLIFIED_TRIANGLES) return;
+    float error = 0;
+    p->corner_count = gn_reorder_simplify(p->corners, p->corner_count, p->positions,
+                                          p->vertex_count, 3 * (size_t)((double)triangles * share),
+                                          SIMPLIFY_ERROR, locks_border, &error);
+    if ((double)error > p->b->report->error) p->b->report->error = (double)error;
+}
+
+static void reorder(struct primitive *p, bool locks_border) {
+    uint32_t *work = p->remap + p->vertex_count;
+    const size_t merged = gn_reorder_merge(p->bytes, p->stream_count, p->corners, p->corner_count,
+                                           p->vertex_count, p->remap, work);
+    move_vertices(p, merged);
+    p->corner_count = drop_flat(p->corners, p->corner_count);
+    simplify(p, locks_border);
+    if (!keeps_order(p))
+        gn_reorder_triangles(p->corners, p->corner_count, p->positions, p->vertex_count);
+    const size_t used =
+        gn_reorder_fetch(p->remap, p->corners, p->corner_count, p->vertex_count);
+    move_vertices(p, used);
+}
+
+/* ---- writing ---- */
+
+/* {"attributes": .., "indices": .., "targets": ..} */
+static json_t *write_primitive(struct primitive *p) {
+    json_t *out = json_object(), *attributes = json_object(), *targets = json_array();
+    for (size_t i = 0; i < json_array_size(targets_of(p)); i++)
+        json_array_append_new(targets, json_object());
+    for (size_t i = 0; i < p->stream_count; i++) {
+        const struct gn_stream *s = &p->streams[i];
+        json_t *set = s->target < 0 ? attributes : json_array_get(targets, (size_t)s->target);
+        json_object_set_new(set, s->semantic,
+                            json_integer((json_int_t)gn_stream_write(p->b, s, p->vertex_count)));
+    }
+    const bool wide = p->vertex_count > 65535; /* 65535 restarts strips */
+    const struct gn_block block = {GN_BLOCK_TRIANGLES, p->corners, p->corner_count, wide ? 4 : 2};
+    json_t *indices =
+        json_pack("{s:I,s:i,s:I,s:s}", "bufferView", (json_int_t)gn_bake_view(p->b, &block),
+                  "componentType", wide ? 5125 : GN_COMPONENT_U16, "count",
+                  (json_int_t)p->corner_count, "type", "SCALAR");
+    json_object_set_new(out, "indices",
+                        json_integer((json_int_t)gn_bake_add(p->b, "accessors", indices)));
+    json_object_set_new(out, "attributes", attributes);
+    if (targets_of(p))
+        json_object_set_new(out, "targets", targets);
+    else
+        json_decref(targets);
+    return out;
+}
+
+/* What the primitive reads, and how it is written, as a text; to be freed. */
+static char *name_source(const struct primitive *p, const struct gn_grid *grid, bool locks_border) {
+    json_t *source =
+        json_pack("{s:O*,s:O*,s:O*,s:O*,s:[iiifIII]}", "attributes",
+                  json_object_get(p->json, "attributes"), "indices",
+                  json_object_get(p->json, "indices"), "targets", targets_of(p), "mode",
+                  json_object_get(p->json, "mode"), "grid", (int)grid->kind, (int)keeps_order(p),
+                  (int)locks_border, grid->step, (json_int_t)grid->origin[0],
+                  (json_int_t)grid->origin[1], (json_int_t)grid->origin[2]);
+    char *text = source ? json_dumps(source, JSON_SORT_KEYS | JSON_COMPACT) : NULL;
+    json_decref(source);
+    return text;
+}
+
+static json_t *bake_shape(struct primitive *p, const struct gn_grid *grid, int64_t mode,
+                          size_t position, bool locks_border) {
+    if (!read_streams(p, position, grid) || !read_corners(p, mode)) return NULL;
+    p->b->report->vertices_before += p->vertex_count;
+    if (p->corner_count == 0) return NULL;
+    reorder(p, locks_border);
+    if (p->corner_count == 0) return NULL;
+    p->b->report->vertices_after += p->vertex_count;
+    p->b->report->triangles_after += p->corner_count / 3;
+    return write_primitive(p);
+}
+
+bool gn_bake_primitive(struct gn_baker *b, json_t *json, const struct gn_grid *grid,
+                       bool locks_border, bool *baked) {
+    struct primitive p = {.b = b, .json = json};
+    const int64_t number = gn_bake_number(json, "mode"), mode = number < 0 ? MODE_TRIANGLES : number;
+    const int64_t position = gn_bake_number(json_object_get(json, "attributes"), "POSITION");
+    struct gn_elements e;
+    *baked = false;
+    if (mode < MODE_TRIANGLES || mode > MODE_FAN || position < 0) return true;
+    if (!gn_document_accessor(b->in, (size_t)position, &e)) return !(b->failed = true);
+    if (e.components != 3 || e.count > UINT32_MAX) return true;
+    p.vertex_count = e.count;
+    char *source = name_source(&p, grid, locks_border);
+    if (!source) return gn_bake_fail(b, "out of memory");
+    json_t *shape = json_incref(json_object_get(b->known, source));
+    if (!shape) shape = bake_shape(&p, grid, mode, (size_t)position, locks_border);
+    if (shape) {
+        json_object_set(b->known, source, shape);
+        json_t *copy = json_deep_copy(shape);
+        json_object_update(json, copy);
+        json_object_del(json, "mode");
+        json_object_del(json_object_get(json, "extensions"), "KHR_draco_mesh_compression");
+        json_decref(copy);
+        json_decref(shape);
+        *baked = true;
+    }
+    free(source);
+    gn_arena_reset(&b->step);
+    return !b->failed;
+}

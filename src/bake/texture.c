@@ -1,0 +1,236 @@
+/* Pictures: those over the limit are made smaller, all become parts of the .glb. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "bake/private.h"
+#include "core/encoding.h"
+#include "image/read.h"
+#include "image/scale.h"
+#include "image/write.h"
+
+enum { PNG, JPEG, WEBP, KTX2, FORMAT_COUNT };
+static const struct format {
+    const char *magic;
+    size_t size, at;
+    const char *mime;
+} formats[FORMAT_COUNT] = {
+    [PNG] = {"\x89PNG\r\n\x1a\n", 8, 0, "image/png"},
+    [JPEG] = {"\xff\xd8\xff", 3, 0, "image/jpeg"},
+    [WEBP] = {"WEBP", 4, 8, "image/webp"},
+    [KTX2] = {"\xabKTX 20\xbb", 8, 0, "image/ktx2"},
+};
+
+static int format_of(const struct gn_bytes *bytes) {
+    int i = 0;
+    for (; i < FORMAT_COUNT; i++) {
+        const struct format *f = &formats[i];
+        if (bytes->size >= f->at + f->size && memcmp(bytes->data + f->at, f->magic, f->size) == 0)
+            break;
+    }
+    return i;
+}
+
+/* ---- what a picture shows ---- */
+
+/* By the member of a material that names its texture. */
+static enum gn_scale_kind kind_of(const char *key) {
+    static const char *const colors[] = {"baseColorTexture",     "emissiveTexture",
+                                         "diffuseTexture",       "specularGlossinessTexture",
+                                         "specularColorTexture", "sheenColorTexture",
+                                         "diffuseTransmissionColorTexture"};
+    const size_t length = strlen(key), normal = strlen("ormalTexture");
+    if (length >= normal && strcmp(key + length - normal, "ormalTexture") == 0)
+        return GN_SCALE_NORMALS;
+    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++)
+        if (strcmp(key, colors[i]) == 0) return GN_SCALE_COLOR;
+    return GN_SCALE_DATA;
+}
+
+static void mark_image(const struct gn_baker *b, int64_t texture, int kind, uint8_t *kinds,
+                       size_t image_count) {
+    static const char *const sources[] = {"EXT_texture_webp", "KHR_texture_basisu",
+                                          "EXT_texture_avif"};
+    const json_t *list = json_object_get(b->root, "textures");
+    const json_t *json = texture < 0 ? NULL : json_array_get(list, (size_t)texture);
+    for (int i = -1; i < 3; i++) {
+        const json_t *from = i < 0 ? json : gn_bake_extension(json, sources[i]);
+        const int64_t image = gn_bake_number(from, "source");
+        if (image >= 0 && (uint64_t)image < image_count) kinds[image] |= (uint8_t)(1 << kind);
+    }
+}
+
+static void mark_textures(const struct gn_baker *b, const json_t *json, uint8_t *kinds,
+                          size_t count) {
+    json_t *value;
+    const char *key;
+    json_object_foreach((json_t *)(uintptr_t)json, key, value) {
+        if (!json_is_object(value) || strcmp(key, "extras") == 0) continue;
+        const size_t length = strlen(key), suffix = strlen("Texture");
+        if (length >= suffix && strcmp(key + length - suffix, "Texture") == 0)
+            mark_image(b, gn_bake_number(value, "index"), (int)kind_of(key), kinds, count);
+        mark_textures(b, value, kinds, count);
+    }
+}
+
+/* ---- bytes ---- */
+
+/* The bytes of an image; *owned: to be freed. */
+static bool read_image(struct gn_baker *b, const json_t *image, struct gn_bytes *out, bool *owned,
+                       struct gn_err *why) {
+    const char *uri = json_string_value(json_object_get(image, "uri"));
+    const int64_t view = gn_bake_number(image, "bufferView");
+    *owned = uri;
+    if (uri) return gn_document_fetch(b->in, uri, out, why);
+    const uint8_t *data = NULL;
+    size_t size = 0, stride;
+    if (view >= 0) gn_document_view(b->in, (size_t)view, &data, &size, &stride);
+    *out = (struct gn_bytes){(uint8_t *)(uintptr_t)data, size};
+    return size > 0 || gn_fail(why, "has no data");
+}
+
+static bool size_of(int format, const struct gn_bytes *bytes, uint32_t px[2], struct gn_err *why) {
+    switch (format) {
+    case PNG: return gn_png_size(bytes->data, bytes->size, px, why);
+    case JPEG: return gn_jpeg_size(bytes->data, bytes->size, px, why);
+    case WEBP: return gn_webp_is_read() && gn_webp_size(bytes->data, bytes->size, px, why);
+    default: return false;
+    }
+}
+
+static bool decode(int format, const struct gn_bytes *bytes, const uint32_t px[2], uint8_t *rgba,
+                   struct gn_err *why) {
+    switch (format) {
+    case PNG: return gn_png_read(bytes->data, bytes->size, px, rgba, why);
+    case JPEG: return gn_jpeg_read(bytes->data, bytes->size, px, rgba, why);
+    default: return gn_webp_read(bytes->data, bytes->size, px, rgba, why);
+    }
+}
+
+static bool encode(int format, const struct gn_bytes *from, const uint8_t *rgba,
+                   const uint32_t px[2], struct gn_bytes *out, struct gn_err *why) {
+    const int width = (int)px[0], height = (int)px[1];
+    switch (format) {
+    case PNG: return gn_picture_encode_png_rgba(rgba, width, height, out, why);
+    case JPEG: return gn_picture_encode_jpeg(rgba, width, height, out, why);
+    default:
+        return gn_picture_encode_webp(rgba, width, height,
+                                      gn_webp_is_lossless(from->data, from->size), out, why);
+    }
+}
+
+static uint32_t scaled_px(uint32_t px, uint32_t larger, uint32_t limit) {
+    const uint64_t scaled = ((uint64_t)px * limit + larger / 2) / larger;
+    return scaled > 0 ? (uint32_t)scaled : 1;
+}
+
+/* Into out; false where it stays as it is, with the reason in why, or none if it is small. */
+static bool scale(struct gn_baker *b, int format, const struct gn_bytes *from, int kind,
+                  struct gn_bytes *out, struct gn_err *why) {
+    const struct gn_scene_limits limits = gn_scene_limits_or_default(b->opts->limits);
+    const uint32_t limit = (uint32_t)b->opts->texture_limit_px;
+    uint32_t px[2] = {0}, to[2];
+    if (!size_of(format, from, px, why)) return false;
+    const uint32_t larger = px[0] > px[1] ? px[0] : px[1];
+    if (larger <= limit) return false;
+    const uint64_t texels = (uint64_t)px[0] * px[1];
+    if (texels > limits.texels)
+        return gn_fail(why, "%ux%u is over the limit texels=%llu", px[0], px[1],
+                       (unsigned long long)limits.texels);
+    for (int k = 0; k < 2; k++) to[k] = scaled_px(px[k], larger, limit);
+    uint8_t *rgba = gn_bake_alloc(b, texels, 4);
+    uint8_t *small = gn_bake_alloc(b, (size_t)to[0] * to[1], 4);
+    if (!small || !decode(format, from, px, rgba, why)) return false;
+    gn_picture_scale(rgba, px, kind, small, to);
+    return encode(format, from, small, to, out, why);
+}
+
+/* ---- images ---- */
+
+struct put_image { /* one that is in the output */
+    struct gn_bytes from;
+    int kind;
+    size_t view;
+};
+
+/* The view of an equal picture that was put before, or -1. */
+static int64_t find_equal(const struct put_image *put, size_t count, const struct gn_bytes *from,
+                          int kind) {
+    for (size_t i = 0; i < count; i++)
+        if (put[i].kind == kind && put[i].from.size == from->size && from->size > 0 &&
+            memcmp(put[i].from.data, from->data, from->size) == 0)
+            return (int64_t)put[i].view;
+    return -1;
+}
+
+static bool put_image(struct gn_baker *b, json_t *image, size_t index, int kind,
+                      struct put_image *put, size_t put_count, struct gn_bytes *from) {
+    struct gn_err why = {0};
+    struct gn_bytes scaled = {0};
+    const int format = format_of(from);
+    int64_t view = find_equal(put, put_count, from, kind);
+    if (view < 0) {
+        const bool smaller = scale(b, format, from, kind, &scaled, &why);
+        if (!smaller && why.text[0])
+            gn_warn(b->warnings, "%s: images[%zu]: %s; kept as it is", b->opts->path, index,
+                    why.text);
+        const struct gn_bytes *bytes = smaller ? &scaled : from;
+        const struct gn_block block = {GN_BLOCK_BYTES, bytes->data, bytes->size, 1};
+        view = (int64_t)gn_bake_view(b, &block);
+        b->report->scaled_images += smaller;
+        b->report->image_bytes_after += bytes->size;
+        gn_bytes_finish(&scaled);
+        gn_arena_reset(&b->step);
+    }
+    json_object_del(image, "uri");
+    json_object_set_new(image, "bufferView", json_integer((json_int_t)view));
+    if (format != FORMAT_COUNT)
+        json_object_set_new(image, "mimeType", json_string(formats[format].mime));
+    return !b->failed;
+}
+
+/* Colour where any material says so, and directions only where all do. */
+static int choose_kind(unsigned kinds) {
+    if (kinds & 1u << GN_SCALE_COLOR || kinds == 0) return GN_SCALE_COLOR;
+    return kinds & 1u << GN_SCALE_DATA ? GN_SCALE_DATA : GN_SCALE_NORMALS;
+}
+
+static bool put_images(struct gn_baker *b, json_t *images, const uint8_t *kinds,
+                       struct put_image *put, bool *owned) {
+    json_t *image;
+    size_t i;
+    json_array_foreach(images, i, image) {
+        struct gn_err why = {0};
+        struct gn_bytes *from = &put[i].from;
+        if (!read_image(b, image, from, &owned[i], &why) ||
+            (format_of(from) == FORMAT_COUNT && !json_object_get(image, "mimeType"))) {
+            gn_warn(b->warnings, "%s: images[%zu]: %s; kept as it is", b->opts->path, i,
+                    why.text[0] ? why.text : "neither PNG, JPEG, WebP nor KTX2");
+            json_object_del(image, "bufferView");
+            continue;
+        }
+        const char *uri = json_string_value(json_object_get(image, "uri"));
+        b->report->image_bytes_before += from->size;
+        b->report->other_bytes += uri && !gn_data_uri_is(uri) ? from->size : 0;
+        put[i].kind = choose_kind(kinds[i]);
+        if (!put_image(b, image, i, put[i].kind, put, i, from)) return false;
+        put[i].view = (size_t)gn_bake_number(image, "bufferView");
+    }
+    return true;
+}
+
+bool gn_bake_images(struct gn_baker *b) {
+    json_t *images = json_object_get(b->root, "images"), *material;
+    const size_t count = json_array_size(images);
+    b->report->images = count;
+    uint8_t *kinds = gn_arena_alloc(&b->whole, count, sizeof *kinds);
+    struct put_image *put = gn_arena_alloc(&b->whole, count, sizeof *put);
+    bool *owned = gn_arena_alloc(&b->whole, count, sizeof *owned);
+    if (!kinds || !put || !owned) return gn_bake_fail(b, "out of memory");
+    size_t i;
+    json_array_foreach(json_object_get(b->root, "materials"), i, material)
+        mark_textures(b, material, kinds, count);
+    const bool done = put_images(b, images, kinds, put, owned);
+    for (i = 0; i < count; i++)
+        if (owned[i]) gn_bytes_finish(&put[i].from);
+    return done;
+}
