@@ -19,7 +19,7 @@ struct gn_bake_report {
     size_t triangles_before, triangles_after;
     size_t primitives, kept_primitives; /* those that stay as they are: lines, points, and what has
                                            positions that are not finite */
-    double error;                       /* of the simplification: the largest move, in sizes of its mesh */
+    double error; /* of the simplification: the largest move, in sizes of its mesh */
     size_t images, scaled_images;
     uint64_t other_bytes; /* of the files that the file names */
     size_t image_bytes_before, image_bytes_after;

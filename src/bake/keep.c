@@ -40,8 +40,7 @@ static void find_unknown(struct gn_baker *b) {
     static const char *const lists[] = {"extensionsUsed", "extensionsRequired"};
     const json_t *item;
     size_t i;
-    for (int k = 0; k < 2; k++)
-        json_array_foreach(json_object_get(b->root, lists[k]), i, item) {
+    for (int k = 0; k < 2; k++) json_array_foreach(json_object_get(b->root, lists[k]), i, item) {
             const char *name = json_string_value(item);
             if (!name || is_known(name)) continue;
             strncpy(b->report->unknown, name, sizeof b->report->unknown - 1);
@@ -59,9 +58,9 @@ static bool copy_view(struct gn_baker *b, size_t index) {
     if (b->failed) return false;
     json_t *made = json_array_get(json_object_get(b->root, "bufferViews"), number), *value;
     const char *key;
-    json_object_foreach(json_array_get(b->views, index), key, value)
-        if (!json_object_get(made, key) && strcmp(key, "extensions") != 0)
-            json_object_set(made, key, value);
+    json_object_foreach(json_array_get(b->views, index), key,
+                        value) if (!json_object_get(made, key) && strcmp(key, "extensions") != 0)
+        json_object_set(made, key, value);
     return true;
 }
 
@@ -97,8 +96,7 @@ static int64_t copy_accessor(struct gn_baker *b, size_t index, enum gn_block_kin
         const struct gn_block block = {kind, data, e.count, stride};
         json_object_del(copy, "byteOffset");
         json_object_del(copy, "sparse");
-        json_object_set_new(copy, "bufferView",
-                            json_integer((json_int_t)gn_bake_view(b, &block)));
+        json_object_set_new(copy, "bufferView", json_integer((json_int_t)gn_bake_view(b, &block)));
     }
     gn_arena_reset(&b->step);
     return (int64_t)gn_bake_add(b, "accessors", copy);
@@ -154,10 +152,8 @@ bool gn_bake_keep_used(struct gn_baker *b) {
     }
     json_array_foreach(json_object_get(root, "skins"), i, item)
         keep_member(&keeper, item, "inverseBindMatrices", GN_BLOCK_OTHER);
-    json_array_foreach(json_object_get(root, "nodes"), i, item)
-        keep_members(&keeper,
-                     json_object_get(gn_bake_extension(item, "EXT_mesh_gpu_instancing"),
-                                     "attributes"),
-                     GN_BLOCK_OTHER);
+    json_array_foreach(json_object_get(root, "nodes"), i, item) keep_members(
+        &keeper, json_object_get(gn_bake_extension(item, "EXT_mesh_gpu_instancing"), "attributes"),
+        GN_BLOCK_OTHER);
     return !b->failed;
 }

@@ -35,8 +35,8 @@ static void find_movable(const struct gn_baker *b, bool *movable, bool *used, si
     json_array_foreach(json_object_get(b->root, "nodes"), i, node) {
         const int64_t mesh = gn_bake_number(node, "mesh");
         if (mesh < 0 || (uint64_t)mesh >= mesh_count) continue;
-        movable[mesh] &= !json_object_get(node, "skin") &&
-                         !gn_bake_extension(node, "EXT_mesh_gpu_instancing");
+        movable[mesh] &=
+            !json_object_get(node, "skin") && !gn_bake_extension(node, "EXT_mesh_gpu_instancing");
         used[mesh] = true;
     }
 }
@@ -137,7 +137,7 @@ bool gn_bake_meshes(struct gn_baker *b) {
     memset(movable, true, mesh_count);
     find_movable(b, movable, used, mesh_count);
     primitives = 0;
-    json_array_foreach(meshes, i, mesh) if (!bake_mesh(b, mesh, i, movable[i], used[i],
-                                                       &primitives)) return false;
+    json_array_foreach(
+        meshes, i, mesh) if (!bake_mesh(b, mesh, i, movable[i], used[i], &primitives)) return false;
     return true;
 }

@@ -112,8 +112,7 @@ bool gn_bake_nodes(struct gn_baker *b) {
     for (size_t i = 0; i < count; i++) {
         json_t *node = json_array_get(nodes, i);
         const int64_t mesh = gn_bake_number(node, "mesh");
-        if (mesh < 0 || (uint64_t)mesh >= mesh_count ||
-            b->grids[mesh].kind != GN_GRID_SHORTS)
+        if (mesh < 0 || (uint64_t)mesh >= mesh_count || b->grids[mesh].kind != GN_GRID_SHORTS)
             continue;
         const struct gn_grid *grid = &b->grids[mesh];
         double offset[3];

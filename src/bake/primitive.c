@@ -66,7 +66,8 @@ static bool read_streams(struct primitive *p, size_t position, const struct gn_g
     if (!read_set(p, json_object_get(p->json, "attributes"), -1, grid)) return false;
     json_t *target;
     size_t i;
-    json_array_foreach(targets_of(p), i, target) if (!read_set(p, target, (int)i, grid)) return false;
+    json_array_foreach(targets_of(p), i,
+                       target) if (!read_set(p, target, (int)i, grid)) return false;
     return true;
 }
 
@@ -162,8 +163,7 @@ static void reorder(struct primitive *p, bool locks_border) {
     simplify(p, locks_border);
     if (!keeps_order(p))
         gn_reorder_triangles(p->corners, p->corner_count, p->positions, p->vertex_count);
-    const size_t used =
-        gn_reorder_fetch(p->remap, p->corners, p->corner_count, p->vertex_count);
+    const size_t used = gn_reorder_fetch(p->remap, p->corners, p->corner_count, p->vertex_count);
     move_vertices(p, used);
 }
 
@@ -182,10 +182,9 @@ static json_t *write_primitive(struct primitive *p) {
     }
     const bool wide = p->vertex_count > 65535; /* 65535 restarts strips */
     const struct gn_block block = {GN_BLOCK_TRIANGLES, p->corners, p->corner_count, wide ? 4 : 2};
-    json_t *indices =
-        json_pack("{s:I,s:i,s:I,s:s}", "bufferView", (json_int_t)gn_bake_view(p->b, &block),
-                  "componentType", wide ? 5125 : GN_COMPONENT_U16, "count",
-                  (json_int_t)p->corner_count, "type", "SCALAR");
+    json_t *indices = json_pack(
+        "{s:I,s:i,s:I,s:s}", "bufferView", (json_int_t)gn_bake_view(p->b, &block), "componentType",
+        wide ? 5125 : GN_COMPONENT_U16, "count", (json_int_t)p->corner_count, "type", "SCALAR");
     json_object_set_new(out, "indices",
                         json_integer((json_int_t)gn_bake_add(p->b, "accessors", indices)));
     json_object_set_new(out, "attributes", attributes);
@@ -198,13 +197,12 @@ static json_t *write_primitive(struct primitive *p) {
 
 /* What the primitive reads, and how it is written, as a text; to be freed. */
 static char *name_source(const struct primitive *p, const struct gn_grid *grid, bool locks_border) {
-    json_t *source =
-        json_pack("{s:O*,s:O*,s:O*,s:O*,s:[iiifIII]}", "attributes",
-                  json_object_get(p->json, "attributes"), "indices",
-                  json_object_get(p->json, "indices"), "targets", targets_of(p), "mode",
-                  json_object_get(p->json, "mode"), "grid", (int)grid->kind, (int)keeps_order(p),
-                  (int)locks_border, grid->step, (json_int_t)grid->origin[0],
-                  (json_int_t)grid->origin[1], (json_int_t)grid->origin[2]);
+    json_t *source = json_pack(
+        "{s:O*,s:O*,s:O*,s:O*,s:[iiifIII]}", "attributes", json_object_get(p->json, "attributes"),
+        "indices", json_object_get(p->json, "indices"), "targets", targets_of(p), "mode",
+        json_object_get(p->json, "mode"), "grid", (int)grid->kind, (int)keeps_order(p),
+        (int)locks_border, grid->step, (json_int_t)grid->origin[0], (json_int_t)grid->origin[1],
+        (json_int_t)grid->origin[2]);
     char *text = source ? json_dumps(source, JSON_SORT_KEYS | JSON_COMPACT) : NULL;
     json_decref(source);
     return text;
@@ -225,7 +223,8 @@ static json_t *bake_shape(struct primitive *p, const struct gn_grid *grid, int64
 bool gn_bake_primitive(struct gn_baker *b, json_t *json, const struct gn_grid *grid,
                        bool locks_border, bool *baked) {
     struct primitive p = {.b = b, .json = json};
-    const int64_t number = gn_bake_number(json, "mode"), mode = number < 0 ? MODE_TRIANGLES : number;
+    const int64_t number = gn_bake_number(json, "mode"),
+                  mode = number < 0 ? MODE_TRIANGLES : number;
     const int64_t position = gn_bake_number(json_object_get(json, "attributes"), "POSITION");
     struct gn_elements e;
     *baked = false;

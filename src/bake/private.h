@@ -29,13 +29,13 @@ struct gn_baker {
     struct gn_warnings *warnings;
     struct gn_err *err;
     bool failed;
-    json_t *root;      /* of the output: the file's, without what follows */
+    json_t *root;              /* of the output: the file's, without what follows */
     json_t *accessors, *views; /* of the file */
-    uint8_t *bin;      /* its chunk */
+    uint8_t *bin;              /* its chunk */
     size_t size, room;
     uint64_t plain_bytes; /* of all that is compressed, before that */
     bool quantized;
-    bool keeps_all; /* accessors and views of the file keep their numbers */
+    bool keeps_all;              /* accessors and views of the file keep their numbers */
     struct gn_arena whole, step; /* step: reset for each primitive, accessor and picture */
     struct gn_grid *grids;       /* of each mesh */
     bool *is_baked;              /* of each primitive of each mesh, in the order of the file */

@@ -3,7 +3,7 @@
 #include <meshoptimizer.h>
 #include <string.h>
 
-enum { STREAMS_AT_ONCE = 16 }; /* of meshopt_generateVertexRemapMulti */
+enum { STREAMS_AT_ONCE = 16 };   /* of meshopt_generateVertexRemapMulti */
 #define OVERDRAW_THRESHOLD 1.05f /* how much longer the cache's work may become */
 
 bool gn_reorder_is_built(void) { return true; }

@@ -87,8 +87,8 @@ static bool put_unorm(struct gn_baker *b, const float *values, size_t count, siz
 }
 
 /* Directions as signed bytes, the first three components of length 1. */
-static bool put_directions(struct gn_baker *b, const float *values, size_t count,
-                           size_t components, struct gn_stream *s) {
+static bool put_directions(struct gn_baker *b, const float *values, size_t count, size_t components,
+                           struct gn_stream *s) {
     enum { I8 = 5120, MOST = 127 };
     if (!make_data(b, s, count, I8, components)) return false;
     s->normalized = s->is_quantized = true;

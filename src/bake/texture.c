@@ -34,9 +34,12 @@ static int format_of(const struct gn_bytes *bytes) {
 
 /* By the member of a material that names its texture. */
 static enum gn_scale_kind kind_of(const char *key) {
-    static const char *const colors[] = {"baseColorTexture",     "emissiveTexture",
-                                         "diffuseTexture",       "specularGlossinessTexture",
-                                         "specularColorTexture", "sheenColorTexture",
+    static const char *const colors[] = {"baseColorTexture",
+                                         "emissiveTexture",
+                                         "diffuseTexture",
+                                         "specularGlossinessTexture",
+                                         "specularColorTexture",
+                                         "sheenColorTexture",
                                          "diffuseTransmissionColorTexture"};
     const size_t length = strlen(key), normal = strlen("ormalTexture");
     if (length >= normal && strcmp(key + length - normal, "ormalTexture") == 0)

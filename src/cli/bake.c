@@ -51,8 +51,7 @@ static bool measure_bytes(const struct bake *b, const char *path, const struct g
 
 /* ---- the report ---- */
 
-static void print_row(const char *name, double before, double after, int digits,
-                      const char *unit) {
+static void print_row(const char *name, double before, double after, int digits, const char *unit) {
     printf("%-12s %12.*f %12.*f%s", name, digits, before, digits, after, unit);
     if (before > 0) printf("  %5.1f %%", 100 * after / before);
     putchar('\n');
@@ -84,28 +83,26 @@ static void print_table(const struct bake *b) {
 static json_t *make_measures(const struct measures *m) {
     return json_pack("{so so so so so so}", "file_bytes", gn_json_make_count(m->file_bytes),
                      "triangles", gn_json_make_count(m->triangles), "vertices",
-                     gn_json_make_count(m->vertices), "gpu_bytes",
-                     gn_json_make_count(m->gpu_bytes), "memory_bytes",
-                     gn_json_make_count(m->scene_bytes), "load_ms",
+                     gn_json_make_count(m->vertices), "gpu_bytes", gn_json_make_count(m->gpu_bytes),
+                     "memory_bytes", gn_json_make_count(m->scene_bytes), "load_ms",
                      gn_json_make_number(m->load_ms));
 }
 
 static bool print_json(const struct bake *b, struct gn_err *err) {
     const struct gn_bake_report *r = &b->report;
-    return gn_json_print(
-        json_pack("{so so so so so so so so so so so so}", "file",
-                  gn_json_make_text(b->settings->scene.path), "out",
-                  gn_json_make_text(b->settings->run.out), "before", make_measures(&b->before),
-                  "after", make_measures(&b->after), "image_bytes_before",
-                  gn_json_make_count(r->image_bytes_before), "image_bytes_after",
-                  gn_json_make_count(r->image_bytes_after), "images",
-                  gn_json_make_count(r->images), "scaled_images",
-                  gn_json_make_count(r->scaled_images), "primitives",
-                  gn_json_make_count(r->primitives), "kept_primitives",
-                  gn_json_make_count(r->kept_primitives), "simplified_error",
-                  gn_json_make_number(r->error), "unknown_extension",
-                  r->unknown[0] ? gn_json_make_text(r->unknown) : json_null()),
-        9, stdout, err);
+    return gn_json_print(json_pack("{so so so so so so so so so so so so}", "file",
+                                   gn_json_make_text(b->settings->scene.path), "out",
+                                   gn_json_make_text(b->settings->run.out), "before",
+                                   make_measures(&b->before), "after", make_measures(&b->after),
+                                   "image_bytes_before", gn_json_make_count(r->image_bytes_before),
+                                   "image_bytes_after", gn_json_make_count(r->image_bytes_after),
+                                   "images", gn_json_make_count(r->images), "scaled_images",
+                                   gn_json_make_count(r->scaled_images), "primitives",
+                                   gn_json_make_count(r->primitives), "kept_primitives",
+                                   gn_json_make_count(r->kept_primitives), "simplified_error",
+                                   gn_json_make_number(r->error), "unknown_extension",
+                                   r->unknown[0] ? gn_json_make_text(r->unknown) : json_null()),
+                         9, stdout, err);
 }
 
 /* ---- the command ---- */
@@ -143,8 +140,8 @@ static bool bake(struct bake *b, struct gn_warnings *warnings, struct gn_err *er
     b->before.file_bytes += b->report.other_bytes;
     b->after.file_bytes = b->baked.size;
     if (b->report.unknown[0])
-        gn_warn(warnings, "%s: %s may refer to any of its data: all of that is kept",
-                s->scene.path, b->report.unknown);
+        gn_warn(warnings, "%s: %s may refer to any of its data: all of that is kept", s->scene.path,
+                b->report.unknown);
     /* nothing is written that would not be read */
     return (measure_bytes(b, s->run.out, &b->baked, &b->after, &again, err) ||
             gn_fail_prefix(err, "not written, since gnomon would refuse it")) &&

@@ -93,9 +93,8 @@ bool gn_picture_encode_png_rgba(const uint8_t *rgba, int width_px, int height_px
     *out = (struct gn_bytes){0};
     if (!rows) return gn_fail(err, "PNG: out of memory");
     for (size_t i = 0; i < count; i++) memcpy(rows + channels * i, rgba + 4 * i, channels);
-    struct buffer buffer =
-        encode_png(rows, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, 8,
-                   (size_t)width_px * channels, width_px, height_px, false);
+    struct buffer buffer = encode_png(rows, opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, 8,
+                                      (size_t)width_px * channels, width_px, height_px, false);
     free(rows);
     *out = (struct gn_bytes){buffer.data, buffer.size};
     return !buffer.full || gn_fail(err, "PNG: out of memory");

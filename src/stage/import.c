@@ -177,8 +177,8 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     return scene;
 }
 
-bool gn_import_convert(const char *path, const struct gn_scene_limits *limits,
-                       struct gn_bytes *out, struct gn_warnings *warnings, struct gn_err *err) {
+bool gn_import_convert(const char *path, const struct gn_scene_limits *limits, struct gn_bytes *out,
+                       struct gn_warnings *warnings, struct gn_err *err) {
     size_t size = 0;
     char *glb = run_import(path, limits, &size, warnings, err);
     if (!glb) return false;

@@ -18,7 +18,7 @@ bool gn_import_wants_refused(const char *path, const struct gn_scene_limits *lim
 struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
                                 struct gn_warnings *warnings, struct gn_err *err);
 /* The same, but the bytes of the .glb, which gn_bytes_finish() frees. */
-bool gn_import_convert(const char *path, const struct gn_scene_limits *limits,
-                       struct gn_bytes *out, struct gn_warnings *warnings, struct gn_err *err);
+bool gn_import_convert(const char *path, const struct gn_scene_limits *limits, struct gn_bytes *out,
+                       struct gn_warnings *warnings, struct gn_err *err);
 
 #endif
