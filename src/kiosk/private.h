@@ -3,6 +3,8 @@
 #ifndef GN_KIOSK_PRIVATE_H
 #define GN_KIOSK_PRIVATE_H
 
+#include <limits.h>
+
 #include "caption/captions.h"
 #include "core/loop.h"
 #include "kiosk/control/answer.h"
@@ -29,6 +31,8 @@ struct gn_show_config {
     struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
     bool waits;                  /* options were set that are not shown yet */
     const char *file;            /* in place of the options' scene, in their arena; or NULL */
+    bool has_past;               /* that was replaced by a file: */
+    char past[PATH_MAX];         /* the one before; "": the options' scenes */
     struct gn_show_place *place; /* NULL: the options say where */
     char error[512];             /* of start or the last reload; options->config_error */
 };
@@ -75,11 +79,20 @@ struct gn_show_scenes {
 
 /* A reload, and the first load: its scene loads while frames go on. */
 enum { GN_SHOW_RELOAD = GN_KIOSK_SCENES_MAX /* the number of its scene */, GN_SHOW_WHY = 512 };
+enum gn_reload_cause {
+    GN_RELOAD_ASKED, /* SIGHUP, ctl reload */
+    GN_RELOAD_FILE,  /* ctl scene and rollback: a failure is told to the client alone */
+    GN_RELOAD_DROP,  /* a file dropped onto the window: a caption has a failure for a while */
+};
+struct gn_show_wish { /* the reload that the next step begins, once `reloads` is set */
+    enum gn_reload_cause cause;
+    char file[PATH_MAX]; /* of GN_RELOAD_FILE; "": the options' scenes */
+};
 struct gn_show_reload {
     struct gn_options *options; /* read; NULL: none */
     struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
     const char *file;           /* as in gn_show_config */
-    bool dropped;               /* the user has just given it */
+    enum gn_reload_cause cause;
     bool first;                 /* there is nothing to go back to */
     bool alone;                 /* its scene did not fit on the GPU beside the one that is shown */
     char why[GN_SHOW_WHY];      /* why the built-in scene replaces the first one; "": it does not */
@@ -129,6 +142,7 @@ struct gn_show {
     struct gn_show_modes modes;
     struct gn_show_looks looks; /* of the stage's scene */
     struct gn_show_scenes scenes;
+    struct gn_show_wish wish;
     struct gn_show_reload reload;
     struct gn_kiosk_rules rules;
     struct gn_kiosk kiosk;
@@ -158,9 +172,10 @@ void gn_show_close(struct gn_show *show);
  * test may step it on a fake clock. */
 bool gn_show_step(struct gn_show *show, struct gn_err *err);
 
-/* ---- reload.c: SIGHUP and ctl reload --------------------------------------------------------- */
+/* ---- reload.c: SIGHUP, ctl reload and ctl scene ---------------------------------------------- */
 
-/* Reads the options again, and begins to load their scene. An unfinished reload is dropped. */
+/* The reload that show->wish wants: reads the options again, and begins to load their scene, or the
+ * wish's file in all modes. An unfinished reload is dropped. */
 void gn_show_reload(struct gn_show *show);
 /* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
  * be loaded a caption has the reason for a while. */

@@ -33,6 +33,11 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     s->buttons.input = NULL;
     gn_changes_destroy(s->config.changes);
     s->config.changes = NULL;
+    if (r->cause == GN_RELOAD_FILE || r->cause == GN_RELOAD_DROP) {
+        const char *past = s->config.file ? s->config.file : "";
+        snprintf(s->config.past, sizeof s->config.past, "%s", past);
+        s->config.has_past = true;
+    }
     gn_show_drop_options(s->config.options);
     s->config.options = options;
     s->config.file = r->file;
@@ -63,12 +68,13 @@ void gn_show_drop_reload(struct gn_show *s) {
     s->reload = (struct gn_show_reload){0};
 }
 
-/* The last good configuration stays, and the screen shows the error. */
-static void keep_old(struct gn_show *s, const struct gn_err *why) {
-    const bool dropped = s->reload.dropped;
+/* The last good configuration stays. The error is shown on the screen, but one of ctl's file is the
+ * client's alone. */
+static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct gn_err *why) {
     gn_show_drop_reload(s);
     gn_show_answer_reload(s, why);
-    if (dropped) {
+    if (cause == GN_RELOAD_FILE) return;
+    if (cause == GN_RELOAD_DROP) {
         const struct gn_kiosk_event failed = {.kind = GN_KIOSK_NOTE,
                                               .time_ns = gn_loop_now_ns(s->loop),
                                               .caption = GN_KIOSK_CAPTION_PROBLEM};
@@ -94,9 +100,14 @@ static void choose_mode(const struct gn_show *s, struct gn_options *options) {
     if (found) options->settings = &options->all[found];
 }
 
-static void begin_reload(struct gn_show *s, const char *file, bool dropped) {
+/* file: as in gn_show_config. */
+static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const char *file) {
     struct gn_err why = {0};
-    if (s->reload.first) return; /* the first load goes on */
+    if (s->reload.first) { /* it goes on */
+        gn_fail(&why, "the first scene is still loading; try again");
+        if (cause == GN_RELOAD_FILE) gn_show_answer_reload(s, &why);
+        return;
+    }
     struct gn_options *options = gn_show_read_options(s->config.options, NULL, &why);
     if (options && !options->config_error) {
         const char *own = file ? gn_show_put_file(options, file) : NULL;
@@ -105,20 +116,25 @@ static void begin_reload(struct gn_show *s, const char *file, bool dropped) {
         choose_mode(s, options);
         s->reload.options = options;
         s->reload.file = own;
-        s->reload.dropped = dropped;
+        s->reload.cause = cause;
         return;
     }
     if (options) gn_fail_usage(&why, "%s", options->config_error);
     gn_show_drop_options(options);
-    keep_old(s, &why);
+    keep_old(s, cause, &why);
 }
 
 void gn_show_reload(struct gn_show *s) {
+    struct gn_show_wish *wish = &s->wish;
+    const char *file = wish->file[0] ? wish->file : NULL;
     s->reloads = false;
-    begin_reload(s, s->config.file, false);
+    begin_reload(s, wish->cause, wish->cause == GN_RELOAD_FILE ? file : s->config.file);
+    wish->cause = GN_RELOAD_ASKED;
 }
 
-void gn_show_load_file(struct gn_show *s, const char *path) { begin_reload(s, path, true); }
+void gn_show_load_file(struct gn_show *s, const char *path) {
+    begin_reload(s, GN_RELOAD_DROP, path);
+}
 
 /* The mode may have changed while the scene loaded. */
 static void choose_mode_again(const struct gn_show *s, struct gn_options *options) {
@@ -161,7 +177,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     struct gn_show_reload *r = &s->reload;
     struct gn_err why = {0};
     if (!look_again(s, &why)) {
-        keep_old(s, &why);
+        keep_old(s, r->cause, &why);
         return true;
     }
     if (keeps_gl(s, r) && !gn_show_reload_is_ready(s)) return true;
@@ -186,13 +202,13 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
             *err = why;
             return false;
         } else {
-            keep_old(s, &why);
+            keep_old(s, r->cause, &why);
         }
     }
     if (gn_show_reload_is_staged(s)) return finish_reload(s, err);
     if (!r->options || gn_loader_is_busy(s->scenes.loader)) return true;
     const struct gn_settings *o = r->options->settings;
-    if (!gn_show_start_load(s, GN_SHOW_RELOAD, o->scene.path, o, &why)) keep_old(s, &why);
+    if (!gn_show_start_load(s, GN_SHOW_RELOAD, o->scene.path, o, &why)) keep_old(s, r->cause, &why);
     return true;
 }
 

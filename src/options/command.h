@@ -20,6 +20,10 @@
       "write the next frame as a .png", "file")                                                    \
     X(RELOAD, reload, "reload", "", GN_CTL_CHANGES | GN_CTL_SLOW,                                  \
       "read the configuration and the scene again", NULL)                                          \
+    X(SCENE, scene, "scene", "FILE", GN_CTL_CHANGES | GN_CTL_SLOW | GN_CTL_OWNER,                  \
+      "show that file in all modes, once it is loaded", "file")                                    \
+    X(ROLLBACK, rollback, "rollback", "", GN_CTL_CHANGES | GN_CTL_SLOW,                            \
+      "go back to what was shown before the last scene FILE", NULL)                                \
     X(QUIT, quit, "quit", "", 0, "end the kiosk", NULL)
 /* clang-format on */
 
@@ -27,6 +31,7 @@ enum {                     /* flags */
        GN_CTL_CHANGES = 1, /* it may cost a frame: at most GN_CONTROL_CHANGES_PER_S a second */
        GN_CTL_SLOW = 2,    /* the reply comes when it is done, which may take seconds */
        GN_CTL_FILE = 4,    /* the client passes a memory file, and the kiosk writes into it */
+       GN_CTL_OWNER = 8,   /* of root and the kiosk's own user: the kiosk opens a file they name */
 };
 enum gn_ctl { /* first the actions, in their order: gn_ctl_action() */
 #define X(ID, ...) GN_CTL_##ID,

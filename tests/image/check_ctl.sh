@@ -11,6 +11,7 @@ export XDG_CONFIG_HOME="$folder/none"
 unset XDG_RUNTIME_DIR
 bad=0
 cp assets/sundial.glb "$folder/"
+cp assets/lessons/solids.glb "$folder/other.glb"
 cd "$folder" || exit 1
 
 complain() {
@@ -199,6 +200,34 @@ expect 0 'mode: Plain' reload
 settle
 expect 0 file screenshot after.png
 cmp -s before.png after.png || complain 'the settings of a light stay'
+
+# ---- another scene, and back: a bad one changes nothing, not even what is on the screen -------------
+expect 1 'no scene FILE has replaced another one' rollback
+printf '%s' '{"asset":{"version":"2.0"},"scenes":[{"nodes":[]}]}' > empty.gltf
+head -c 5000 sundial.glb > cut.glb
+mkfifo pipe.glb
+other=$folder/other.glb
+problem=$(ctl status | grep '^problem')
+expect 0 "scene: $other" scene "$other"
+settle
+expect 0 file screenshot other.png
+cmp -s after.png other.png && complain 'another scene is the same picture'
+expect 0 'rollback: (configured)' status
+for broken in cut.glb missing.glb pipe.glb . empty.gltf; do
+    expect 1 "$broken" scene "$broken"
+    expect 0 "scene: $other" status
+    expect 0 "$problem" status
+    expect 0 'config.error: -' status
+done
+expect 0 file screenshot still.png
+cmp -s other.png still.png || complain 'a broken scene changes the picture'
+expect 0 'scene: sundial.glb' rollback
+settle
+expect 0 file screenshot back.png
+cmp -s after.png back.png || complain 'a rollback shows something else'
+expect 0 "scene: $other" rollback
+expect 0 "scene: $other" reload # a file stays in its place
+expect 0 'scene: sundial.glb' rollback
 
 # ---- a second one, and what a killed one leaves -------------------------------------------------
 "$gnomon" show --backend egl --size 32x32 --frames 3 --socket "$folder/ctl" > out 2> err ||

@@ -261,6 +261,22 @@ static void others_use_up_no_changes_of_the_owner(void **state) {
     close(own);
 }
 
+static void only_the_owner_names_a_scene_file(void **state) {
+    (void)state;
+    if (geteuid() != 0) skip();
+    assert_int_equal(chmod(gn_ctl_test.folder, 0711), 0);
+    const int other = enter_as(1001), own = enter_as(0);
+    say(other, "{\"cmd\":\"scene\",\"file\":\"/x.glb\"}\n{\"cmd\":\"rollback\"}\n");
+    say(own, "{\"cmd\":\"scene\",\"file\":\"/x.glb\"}\n");
+    assert_int_equal(serve(), 2);
+    const char *got = heard(other);
+    assert_non_null(strstr(got, "permission denied"));
+    assert_non_null(strstr(got, "\"rollback\",\"ok\":true"));
+    assert_non_null(strstr(heard(own), "\"scene\",\"ok\":true"));
+    close(other);
+    close(own);
+}
+
 static void who_does_not_read_is_cut_off(void **state) {
     (void)state;
     const int fd = enter_client(), other = enter_client();
@@ -323,6 +339,7 @@ int main(void) {
         TEST(the_65th_client_is_told_so),
         TEST(no_user_takes_the_places_of_others),
         TEST(others_use_up_no_changes_of_the_owner),
+        TEST(only_the_owner_names_a_scene_file),
         TEST(who_does_not_read_is_cut_off),
         TEST(without_descriptors_nobody_spins),
     };

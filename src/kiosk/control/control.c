@@ -171,6 +171,11 @@ static bool changes_too_often(struct gn_control *c, const struct client *client)
     return false;
 }
 
+static bool may_ask(const struct gn_control *c, const struct client *client) {
+    return !(gn_ctl_rows[client->buffers->request.command].flags & GN_CTL_OWNER) ||
+           gn_listen_is_owner(&c->listen, client->uid);
+}
+
 static void take_line(struct gn_control *c, struct client *client, const char *line,
                       size_t length) {
     struct gn_err err = {0};
@@ -182,6 +187,9 @@ static void take_line(struct gn_control *c, struct client *client, const char *l
     } else if (changes_too_often(c, client)) {
         c->counts.busy++;
         gn_fail(&err, "busy");
+        send_reply(c, client, gn_reply_failure(&err));
+    } else if (!may_ask(c, client)) {
+        gn_fail(&err, "permission denied: the kiosk opens files for its own user and root only");
         send_reply(c, client, gn_reply_failure(&err));
     } else {
         const int index = (int)(client - c->clients);

@@ -113,6 +113,9 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
                         gn_json_make_text(s->text.problem[0] ? s->text.problem : NULL));
     json_object_set_new(reply, "missing",
                         gn_json_make_text(s->stage.scene ? s->stage.scene->missing : NULL));
+    if (s->config.has_past)
+        json_object_set_new(reply, "rollback",
+                            gn_json_make_text(s->config.past[0] ? s->config.past : "(configured)"));
     json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
     json_object_set_new(reply, "control",
                         json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted",
