@@ -172,7 +172,8 @@ static const char bash_code[] =
     "    elif [[ $command == ctl && ${COMP_WORDS[COMP_CWORD - 2]} == set ]]; then\n"
     "        _gnomon_values \"--$previous\"\n"
     "    elif [[ $command == ctl ]] && ((COMP_CWORD > at + 1)); then\n"
-    "        [[ $previous == screenshot ]] && words='' files=yes || return 0\n"
+    "        [[ $previous == screenshot || $previous == scene ]] && words='' files=yes || return "
+    "0\n"
     "    elif [[ ! $words ]]; then\n"
     "        files=yes\n"
     "    fi\n"
@@ -306,7 +307,7 @@ static const char zsh_code[] =
     "        compadd -- @KEYS@\n"
     "    elif ((CURRENT == at + 3)) && [[ $request == set ]]; then\n"
     "        _gnomon_setting ${words[at+2]}\n"
-    "    elif [[ $request == screenshot ]]; then\n"
+    "    elif [[ $request == screenshot || $request == scene ]]; then\n"
     "        _files\n"
     "    fi\n"
     "}\n"
@@ -364,7 +365,8 @@ static const char fish_code[] =
     "complete -c gnomon -n '__gnomon_in auto' -f -a 'help version'\n"
     "complete -c gnomon -n '__gnomon_in ctl doctor help version' -f\n"
     "complete -c gnomon -n '__gnomon_request 1 get set' -f -a '@KEYS@'\n"
-    "complete -c gnomon -n '__gnomon_request 1 screenshot' -F";
+    "complete -c gnomon -n '__gnomon_request 1 screenshot' -F\n"
+    "complete -c gnomon -n '__gnomon_request 1 scene' -F";
 
 static void print_fish_option(const struct gn_option_row *row) {
     char values[TEXT];

@@ -258,7 +258,7 @@ static void print_ini(void) {
         snprintf(tag, sizeof tag, "%s = %s", gn_button_key(i)->name, gn_button_key(i)->value);
         print_tagged(tag, gn_button_key(i)->help);
     }
-    char actions[160], sentence[200];
+    char actions[240], sentence[280];
     gn_action_list(actions, sizeof actions);
     snprintf(sentence, sizeof sentence, "\nACTION is one of %s.\n", actions);
     print_text(sentence);

@@ -39,7 +39,7 @@ static int find_request(const struct gn_options *o, struct gn_err *err) {
     const char *name = o->word_count > 0 ? o->words[0] : NULL;
     const int command = name ? gn_ctl_find(name) : -1;
     if (command < 0) {
-        char list[300];
+        char list[400];
         const char *nearest = name ? gn_ctl_nearest(name) : NULL;
         gn_ctl_list(list, sizeof list);
         if (nearest)
@@ -52,7 +52,7 @@ static int find_request(const struct gn_options *o, struct gn_err *err) {
     }
     const struct gn_ctl_row *row = &gn_ctl_rows[command];
     const int wanted = gn_ctl_words((enum gn_ctl)command), given = o->word_count - 1;
-    if (given == wanted) return command;
+    if (given <= wanted && given >= gn_ctl_words_least((enum gn_ctl)command)) return command;
     if (given < wanted)
         gn_fail_usage(err, "ctl %s: expected %s", row->name, row->words);
     else
@@ -64,7 +64,7 @@ static int find_request(const struct gn_options *o, struct gn_err *err) {
 static json_t *make_request(const struct gn_options *o, int command, struct gn_err *err) {
     const struct gn_ctl_row *row = &gn_ctl_rows[command];
     json_t *request = json_pack("{s:s}", "cmd", row->name);
-    for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++) {
+    for (int i = 0; i < o->word_count - 1 && row->members[i]; i++) {
         const char *word = o->words[1 + i], *value = word;
         char folder[PATH_MAX], path[PATH_MAX];
         if (strcmp(row->members[i], "file") == 0 && word[0] != '/') {

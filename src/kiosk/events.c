@@ -59,6 +59,7 @@ void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time
         .kind = GN_KIOSK_ACTION,
         .time_ns = time_ns,
         .action = action->kind,
+        .turn = action->turn,
         .pressed = action->pressed,
         .mode = gn_show_find_mode(&s->modes, action->name),
         .clip = clip,

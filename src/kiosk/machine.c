@@ -61,6 +61,16 @@ static void toggle_pause(struct gn_kiosk *s, int64_t time_ns) {
     if (!s->paused && s->seen_ns != 0 && time_ns > s->seen_ns) s->seen_ns = time_ns;
 }
 
+/* Whether the action changes what is so now. */
+static bool turns(bool is_on, enum gn_turn turn) {
+    return turn == GN_TURN_OTHER || (turn == GN_TURN_ON) != is_on;
+}
+
+/* Timers name what they want, also of a screen that is off: that says blank alone. */
+static bool keeps_dark(const struct gn_kiosk_event *e) {
+    return e->turn != GN_TURN_OTHER && (e->action == GN_ACTION_BLANK || !e->pressed);
+}
+
 typedef void act_fn(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                     const struct gn_kiosk_event *e);
 
@@ -120,20 +130,21 @@ static void act_play(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
 static void act_pause(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                       const struct gn_kiosk_event *e) {
     (void)rules;
+    if (!turns(s->paused, e->turn)) return;
     toggle_pause(s, e->time_ns);
     set_caption(s, GN_KIOSK_CAPTION_PAUSE, e->time_ns);
 }
 
 static void act_blank(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                       const struct gn_kiosk_event *e) {
-    (void)rules, (void)e;
-    s->blanked = true;
+    (void)rules;
+    if (turns(s->blanked, e->turn)) s->blanked = !s->blanked;
 }
 
 static void act_info(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                      const struct gn_kiosk_event *e) {
-    (void)rules, (void)e;
-    s->info = !s->info;
+    (void)rules;
+    if (turns(s->info, e->turn)) s->info = !s->info;
 }
 
 static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
@@ -146,7 +157,7 @@ static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     if (e->action == GN_ACTION_NONE) return;
     if (s->play.clip_plus_1 > 0 && rules->plays_alone && e->pressed && !s->blanked) return;
     s->used_ns = e->time_ns;
-    if (s->blanked)
+    if (s->blanked && !keeps_dark(e))
         s->blanked = false;
     else
         acts[e->action](rules, s, e);

@@ -74,6 +74,7 @@ struct gn_kiosk_event {
     enum gn_kiosk_event_kind kind;
     int64_t time_ns;
     enum gn_action_kind action;
+    enum gn_turn turn;
     bool pressed;    /* an action of a button or key */
     int mode;        /* also of GN_ACTION_MODE; -1: no such mode */
     int clip;        /* of GN_ACTION_PLAY; -1: no such clip */

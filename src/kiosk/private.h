@@ -93,9 +93,9 @@ struct gn_show_reload {
     struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
     const char *file;           /* as in gn_show_config */
     enum gn_reload_cause cause;
-    bool first;                 /* there is nothing to go back to */
-    bool alone;                 /* its scene did not fit on the GPU beside the one that is shown */
-    char why[GN_SHOW_WHY];      /* why the built-in scene replaces the first one; "": it does not */
+    bool first;            /* there is nothing to go back to */
+    bool alone;            /* its scene did not fit on the GPU beside the one that is shown */
+    char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
 };
 
 /* Texts on the picture. */

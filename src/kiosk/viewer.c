@@ -188,7 +188,7 @@ static void run_command(struct gn_show *s, enum gn_viewer_command command, int p
 /* The first key on a dark screen switches it on, and one on the help page ends that: nothing else.
  */
 static bool only_wakes(struct gn_show *s) {
-    const struct gn_action wake = {.kind = GN_ACTION_BLANK};
+    const struct gn_action wake = {.kind = GN_ACTION_BLANK, .turn = GN_TURN_OFF};
     if (s->kiosk.blanked)
         gn_show_act(s, &wake, gn_loop_now_ns(s->loop));
     else if (s->viewer.helps)

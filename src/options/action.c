@@ -21,13 +21,23 @@ void gn_action_list(char *out, size_t size) {
                                  rows[k].argument[0] ? " " : "", rows[k].argument);
 }
 
+bool gn_turn_parse(const char *text, const char *label, enum gn_turn *out, struct gn_err *err) {
+    *out = !text ? GN_TURN_OTHER : strcmp(text, "on") == 0 ? GN_TURN_ON : GN_TURN_OFF;
+    return *out != GN_TURN_OFF || strcmp(text, "off") == 0 ||
+           gn_fail_usage(err, "%s: \"%.40s\" is not on or off", label, text);
+}
+
 bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
                      struct gn_err *err) {
     const size_t word = strcspn(text, " \t");
     const char *name = text + word + strspn(text + word, " \t");
     for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT; k++) {
         if (strlen(rows[k].name) != word || strncmp(rows[k].name, text, word) != 0) continue;
-        const bool takes_name = rows[k].argument[0];
+        const bool takes_name = rows[k].argument[0], turns = rows[k].argument[0] == '[';
+        if (turns) {
+            *out = (struct gn_action){.kind = (enum gn_action_kind)k};
+            return gn_turn_parse(name[0] ? name : NULL, label, &out->turn, err);
+        }
         if (takes_name && !name[0])
             return gn_fail_usage(err, "%s: expected \"%s %s\"", label, rows[k].name,
                                  rows[k].argument);
@@ -37,7 +47,7 @@ bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
         *out = (struct gn_action){.kind = (enum gn_action_kind)k, .name = takes_name ? name : NULL};
         return true;
     }
-    char list[200];
+    char list[240];
     gn_action_list(list, sizeof list);
     return gn_fail_usage(err, "%s: unknown action \"%s\"; expected %s", label, text, list);
 }

@@ -7,7 +7,8 @@
 
 #include "core/err.h"
 
-/* The table of actions: X(ID, id, name, argument, help, member of a request..). A row and the
+/* The table of actions: X(ID, id, name, argument, help, member of a request..). An argument in
+ * brackets may be left out: on or off, without it the other of the two. A row and the
  * function act_<id> of kiosk/machine.c make an action of buttons, keys and `gnomon ctl`. The first
  * mode follows the last; while the screen is blanked, an action
  * only switches it on. */
@@ -19,9 +20,9 @@
     X(NEXT_SCENE, next_scene, "next-scene", "", "show the next scene", NULL)                       \
     X(NEXT_CAMERA, next_camera, "next-camera", "", "use the scene's next camera", NULL)            \
     X(PLAY, play, "play", "CLIP", "play that clip of the animation once, then go on as before", "clip") \
-    X(PAUSE, pause, "pause", "", "stop the animation, or resume it", NULL)                         \
-    X(BLANK, blank, "blank", "", "turn the screen off, or on again", NULL)                         \
-    X(INFO, info, "info", "", "show or hide the information page", NULL)
+    X(PAUSE, pause, "pause", "[on|off]", "stop the animation, or resume it", "state")              \
+    X(BLANK, blank, "blank", "[on|off]", "turn the screen off, or on again", "state")              \
+    X(INFO, info, "info", "[on|off]", "show or hide the information page", "state")
 /* clang-format on */
 
 enum gn_action_kind {
@@ -31,8 +32,10 @@ enum gn_action_kind {
 #undef X
         GN_ACTION_KIND_COUNT,
 };
+enum gn_turn { GN_TURN_OTHER, GN_TURN_ON, GN_TURN_OFF };
 struct gn_action { /* zeroed: none */
     enum gn_action_kind kind;
+    enum gn_turn turn;
     const char *name; /* of the mode or clip, else NULL; points into the parsed text */
     bool pressed;     /* by a button or key, not by a command */
 };
@@ -45,7 +48,9 @@ enum gn_idle { /* what a kiosk does after idle_after seconds without an event */
 
 const char *gn_action_name(enum gn_action_kind kind); /* "next-scene" */
 void gn_action_list(char *out, size_t size);          /* "none, next, prev, mode NAME, .." */
-/* "next", "mode Soft": the name begins behind the first space and points into text, which
+/* "on", "off"; NULL: the other. Else a usage error "label: ..". */
+bool gn_turn_parse(const char *text, const char *label, enum gn_turn *out, struct gn_err *err);
+/* "next", "pause on", "mode Soft": the name begins behind the first space and points into text, which
  * must live as long as the action. Else a usage error "label: .." that lists the actions. */
 bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
                      struct gn_err *err);

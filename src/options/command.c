@@ -37,6 +37,10 @@ int gn_ctl_words(enum gn_ctl command) {
     return words;
 }
 
+int gn_ctl_words_least(enum gn_ctl command) {
+    return gn_ctl_rows[command].words[0] == '[' ? 0 : gn_ctl_words(command);
+}
+
 void gn_ctl_list(char *out, size_t size) {
     size_t used = 0;
     out[0] = '\0';

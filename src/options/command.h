@@ -51,7 +51,8 @@ extern const struct gn_ctl_row gn_ctl_rows[GN_CTL_COUNT];
 
 enum gn_action_kind gn_ctl_action(enum gn_ctl command); /* GN_ACTION_NONE: it is not an action */
 int gn_ctl_find(const char *name);                      /* enum gn_ctl, or -1 */
-int gn_ctl_words(enum gn_ctl command);                  /* how many words it takes */
+int gn_ctl_words(enum gn_ctl command);                  /* how many words it takes, */
+int gn_ctl_words_least(enum gn_ctl command);            /* and without those in brackets */
 void gn_ctl_list(char *out, size_t size);               /* " next, prev, mode NAME, .." */
 const char *gn_ctl_nearest(const char *misspelled);     /* or NULL */
 

@@ -126,6 +126,13 @@ expect 0 'camera: 2' next-camera
 expect 0 'camera: 0' next-camera
 expect 0 'info: yes' info
 expect 0 'info: no' info
+for _ in 1 2; do expect 0 'blanked: yes' blank on; done
+expect 0 'info: yes' info on
+expect 0 'blanked: yes' pause off
+for _ in 1 2; do expect 0 'blanked: no' blank off; done
+expect 0 'info: no' info off
+expect 2 '"of" is not on or off' blank of
+expect 2 'unexpected argument "now"' blank on now
 ctl status --json > out || complain 'status --json'
 for key in version uptime_s mode modes scene screen frames fps paused blanked config memory_mb control input; do
     grep -q "\"$key\":" out || complain "status --json has no $key"

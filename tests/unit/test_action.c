@@ -32,6 +32,13 @@ static void actions_are_read(void **state) {
     assert_true(gn_action_parse("play Wave hello", "x", &action, &err));
     assert_int_equal(action.kind, GN_ACTION_PLAY);
     assert_string_equal(action.name, "Wave hello");
+    assert_true(gn_action_parse("pause on", "x", &action, &err));
+    assert_int_equal(action.kind, GN_ACTION_PAUSE);
+    assert_int_equal(action.turn, GN_TURN_ON);
+    assert_true(gn_action_parse("blank  off", "x", &action, &err));
+    assert_int_equal(action.turn, GN_TURN_OFF);
+    assert_true(gn_action_parse("info", "x", &action, &err));
+    assert_int_equal(action.turn, GN_TURN_OTHER);
     for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT; k++) {
         if (k == GN_ACTION_MODE || k == GN_ACTION_PLAY) continue;
         assert_true(gn_action_parse(gn_action_name((enum gn_action_kind)k), "x", &action, &err));
@@ -42,7 +49,8 @@ static void actions_are_read(void **state) {
 static void what_is_no_action_is_refused(void **state) {
     (void)state;
     static const char *const bad[] = {"",      "nex",  "nextt",  "mode",
-                                      "mode ", "play", "next 1", "Next"};
+                                      "mode ", "play", "next 1", "Next",
+                                      "blank o", "pause off on"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct gn_action action = {0};
         struct gn_err err = {0};

@@ -77,8 +77,11 @@ void gn_show_close_control(struct gn_show *s) {
 
 /* While the screen is off a button only switches it on; a command also has its effect. */
 static json_t *answer_action(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
-    const struct gn_action action = {.kind = gn_ctl_action(r->command), .name = r->words[0]};
+    struct gn_action action = {.kind = gn_ctl_action(r->command), .name = r->words[0]};
     const int64_t now_ns = gn_loop_now_ns(s->loop);
+    const struct gn_ctl_row *row = &gn_ctl_rows[r->command];
+    const bool turns = gn_ctl_words_least(r->command) < gn_ctl_words(r->command);
+    if (turns && !gn_turn_parse(r->words[0], row->name, &action.turn, err)) return NULL;
     if (!gn_show_check_action(s, &action, err)) return NULL;
     const bool was_dark = s->kiosk.blanked;
     gn_show_act(s, &action, now_ns);

@@ -38,7 +38,7 @@ static bool read_members(json_t *root, struct gn_request *out, struct gn_err *er
     if (!name) return gn_fail_usage(err, "expected {\"cmd\":\"..\"} with a string");
     const int command = gn_ctl_find(name);
     if (command < 0) {
-        char list[300];
+        char list[400];
         const char *nearest = gn_ctl_nearest(name);
         if (nearest)
             return gn_fail_usage(err, "unknown command \"%.60s\"; did you mean %s?", name, nearest);
@@ -57,11 +57,13 @@ static bool read_members(json_t *root, struct gn_request *out, struct gn_err *er
         if (!known) return gn_fail_usage(err, "%s: unknown member \"%.60s\"", row->name, key);
     }
 
-    /* check that none is missing, and copy each as a word */
+    /* check that none is missing that must be there, and copy each as a word */
     size_t used = 0;
     for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++) {
         char number[40];
         const bool any = strcmp(row->members[i], "value") == 0;
+        if (i >= gn_ctl_words_least(out->command) && !json_object_get(root, row->members[i]))
+            break;
         const char *word =
             word_of(json_object_get(root, row->members[i]), any, number, sizeof number);
         if (!word)
