@@ -338,6 +338,7 @@ static void show_wanted(struct gn_show *s, int scene) {
         scenes->shown = scene;
         stage->frame_opts.view.orbit = (struct gn_orbit){0};
         gn_show_take_staged(s);
+        gn_show_follow_content(s, false);
     }
     gn_show_enter(s);
     s->fade.keeps = s->fade.kept = false;

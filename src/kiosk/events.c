@@ -8,6 +8,7 @@
 
 void gn_show_report_problem(struct gn_show *s, const char *text) {
     if (strcmp(s->text.problem, text) == 0) return;
+    s->text.cured = false;
     snprintf(s->text.problem, sizeof s->text.problem, "%s", text);
     fprintf(stderr, "gnomon: warning: %s\n", text);
 }

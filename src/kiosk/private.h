@@ -7,6 +7,7 @@
 
 #include "caption/captions.h"
 #include "core/loop.h"
+#include "kiosk/content.h"
 #include "kiosk/control/answer.h"
 #include "kiosk/info_page.h"
 #include "kiosk/latency.h"
@@ -29,6 +30,7 @@
 struct gn_show_config {
     struct gn_options *options;  /* owned: a reload makes others */
     struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
+    char asked[PATH_MAX];        /* the scene that the options want; "": the default one */
     bool waits;                  /* options were set that are not shown yet */
     const char *file;            /* in place of the options' scene, in their arena; or NULL */
     bool has_past;               /* that was replaced by a file: */
@@ -83,6 +85,7 @@ enum gn_reload_cause {
     GN_RELOAD_ASKED, /* SIGHUP, ctl reload */
     GN_RELOAD_FILE,  /* ctl scene and rollback: a failure is told to the client alone */
     GN_RELOAD_DROP,  /* a file dropped onto the window: a caption has a failure for a while */
+    GN_RELOAD_SEEN,  /* a file that is shown has changed: likewise */
 };
 struct gn_show_wish { /* the reload that the next step begins, once `reloads` is set */
     enum gn_reload_cause cause;
@@ -93,6 +96,7 @@ struct gn_show_reload {
     struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
     const char *file;           /* as in gn_show_config */
     enum gn_reload_cause cause;
+    int scene;             /* of the list of next-scene, where the mode names none */
     bool first;            /* there is nothing to go back to */
     bool alone;            /* its scene did not fit on the GPU beside the one that is shown */
     char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
@@ -107,6 +111,7 @@ struct gn_show_text {
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
     char problem[512];         /* reported last; "" */
+    bool cured;                /* by the next reload that succeeds */
     char modes[120];           /* of the split screen */
 };
 /* Work ahead: pieces that are done between frames. */
@@ -153,6 +158,7 @@ struct gn_show {
     struct gn_show_counts counts;
     struct gn_show_stats stats;
     struct gn_shader_files shaders;
+    struct gn_contents content;
     struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
@@ -177,6 +183,8 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 /* The reload that show->wish wants: reads the options again, and begins to load their scene, or the
  * wish's file in all modes. An unfinished reload is dropped. */
 void gn_show_reload(struct gn_show *show);
+/* The same once files have changed that are watched. */
+void gn_show_renew_content(struct gn_show *show);
 /* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
  * be loaded a caption has the reason for a while. */
 void gn_show_load_file(struct gn_show *show, const char *path);
@@ -289,6 +297,9 @@ bool gn_show_look_at_first(const struct gn_show *show, struct gn_options *option
                            char why[GN_SHOW_WHY], struct gn_err *err);
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
+
+/* follow.c: the files that are watched; called again after each load, whatever became of it. */
+void gn_show_follow_content(struct gn_show *show, bool missed);
 
 /* truth.c stands here; see truth.h. */
 

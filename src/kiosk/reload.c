@@ -2,6 +2,7 @@
  * it on the GPU, while frames go on. If one fails the kiosk keeps the last good configuration and
  * its picture. The first load is one, too, once it takes over a second: until then a black stage is
  * the last good one. */
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -45,13 +46,18 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     s->stage.settings = options->settings;
     s->stage.frame_opts.view.orbit = (struct gn_orbit){0};
     const bool blanked = s->kiosk.blanked;
-    if (!gn_show_begin(s, err) || (!keeps_display && !gn_show_open_display(s, err))) return false;
+    const bool begun = gn_show_begin(s, err);
+    s->kiosk.shown.scene = s->kiosk.wanted.scene = r->scene;
+    s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
+    if (!begun || (!keeps_display && !gn_show_open_display(s, err))) return false;
     gn_show_open_captions(s);
     gn_show_open_shaders(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
         gn_show_report_problem(s, why.text); /* not fatal: the kiosk runs without buttons */
     s->kiosk.blanked = blanked;
+    if (s->text.cured) s->text.problem[0] = '\0';
+    s->text.cured = false;
     if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
     fflush(stdout);
@@ -74,11 +80,13 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     gn_show_drop_reload(s);
     gn_show_answer_reload(s, why);
     if (cause == GN_RELOAD_FILE) return;
-    if (cause == GN_RELOAD_DROP) {
+    gn_show_follow_content(s, true);
+    if (cause != GN_RELOAD_ASKED) {
         const struct gn_kiosk_event failed = {.kind = GN_KIOSK_NOTE,
                                               .time_ns = gn_loop_now_ns(s->loop),
                                               .caption = GN_KIOSK_CAPTION_PROBLEM};
         gn_show_report_problem(s, why->text);
+        s->text.cured = true;
         s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
         s->changed = true;
         return;
@@ -89,6 +97,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
     gn_show_report_problem(s, text);
+    s->text.cured = true;
 }
 
 /* ---- the steps ------------------------------------------------------------------------------ */
@@ -98,6 +107,24 @@ static void choose_mode(const struct gn_show *s, struct gn_options *options) {
     if (s->kiosk.wanted.mode == s->modes.base && options->mode_count == 0) return;
     const int found = gn_options_find_mode(options, s->modes.names[s->kiosk.wanted.mode]);
     if (found) options->settings = &options->all[found];
+}
+
+static bool is_of_mode(const struct gn_settings *o) {
+    return gn_settings_source(o, offsetof(struct gn_settings, scene.path)) == GN_SOURCE_MODE;
+}
+
+/* A changed file is shown where it was in the list. */
+static int same_scene(const struct gn_show *s, const struct gn_options *options) {
+    const struct gn_scene_list *list = &options->all[0].scene.list;
+    const int at = s->kiosk.wanted.scene;
+    if (at >= list->count || at >= s->scenes.listed) return 0;
+    const char *before = s->scenes.paths[at], *now = list->paths[at];
+    return before && now && strcmp(before, now) == 0 ? at : 0;
+}
+
+static const char *reload_path(const struct gn_show_reload *r) {
+    const struct gn_settings *o = r->options->settings;
+    return r->scene > 0 && !is_of_mode(o) ? o->scene.list.paths[r->scene] : o->scene.path;
 }
 
 /* file: as in gn_show_config. */
@@ -117,11 +144,13 @@ static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const ch
         s->reload.options = options;
         s->reload.file = own;
         s->reload.cause = cause;
+        if (cause == GN_RELOAD_SEEN && !own) s->reload.scene = same_scene(s, options);
         return;
     }
     if (options) gn_fail_usage(&why, "%s", options->config_error);
     gn_show_drop_options(options);
-    keep_old(s, cause, &why);
+    /* what is wrong with kiosk.ini stays on the screen, whoever found it */
+    keep_old(s, cause == GN_RELOAD_SEEN ? GN_RELOAD_ASKED : cause, &why);
 }
 
 void gn_show_reload(struct gn_show *s) {
@@ -130,6 +159,12 @@ void gn_show_reload(struct gn_show *s) {
     s->reloads = false;
     begin_reload(s, wish->cause, wish->cause == GN_RELOAD_FILE ? file : s->config.file);
     wish->cause = GN_RELOAD_ASKED;
+}
+
+void gn_show_renew_content(struct gn_show *s) {
+    if (!s->content.changed || s->reload.first) return;
+    s->content.changed = false;
+    begin_reload(s, GN_RELOAD_SEEN, s->config.file);
 }
 
 void gn_show_load_file(struct gn_show *s, const char *path) {
@@ -187,6 +222,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     if (ok && taken.first) s->counts.frames = 0;
     if (ok && taken.why[0]) gn_show_report_error(s, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);
+    gn_show_follow_content(s, false);
     return ok;
 }
 
@@ -207,8 +243,11 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     }
     if (gn_show_reload_is_staged(s)) return finish_reload(s, err);
     if (!r->options || gn_loader_is_busy(s->scenes.loader)) return true;
-    const struct gn_settings *o = r->options->settings;
-    if (!gn_show_start_load(s, GN_SHOW_RELOAD, o->scene.path, o, &why)) keep_old(s, r->cause, &why);
+    const char *path = reload_path(r);
+    if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP)
+        snprintf(s->config.asked, sizeof s->config.asked, "%s", path ? path : "");
+    if (!gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings, &why))
+        keep_old(s, r->cause, &why);
     return true;
 }
 
@@ -220,6 +259,8 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     const char *backend = s->config.place ? s->config.place->backend : o->display.backend;
     const int64_t until_ns =
         gn_loop_now_ns(s->loop) + (strcmp(backend, "window") == 0 ? WINDOW_NS : GN_NS_PER_S);
+    snprintf(s->config.asked, sizeof s->config.asked, "%s", o->scene.path ? o->scene.path : "");
+    gn_show_follow_content(s, false);
     if (!gn_show_start_load(s, GN_SHOW_RELOAD, o->scene.path, o, err)) return false;
     while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
         gn_loop_step(s->loop, until_ns);

@@ -47,6 +47,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_show_answer_requests(s);
     if (s->ends) return true;
     if (s->reloads) gn_show_reload(s);
+    gn_show_renew_content(s);
     if (!gn_show_step_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_loop_now_ns(s->loop), err)) return false;
     struct gn_pointer pointer = screen->pointer;
@@ -121,6 +122,7 @@ void gn_show_close(struct gn_show *s) {
     gn_stage_close(&s->stage);
     gn_show_stats_close(&s->stats);
     gn_shader_files_close(&s->shaders);
+    gn_content_close(&s->content);
     gn_service_close(&s->service);
     gn_loop_remove_signals(&s->signals);
     gn_loop_close(s->loop);
@@ -163,8 +165,11 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
 
 static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *warnings) {
     struct gn_show *s = gn_xalloc(1, sizeof *s);
-    *s = (struct gn_show){
-        .config.place = place, .service.socket = -1, .shaders.watch.fd = -1, .warnings = warnings};
+    *s = (struct gn_show){.config.place = place,
+                          .service.socket = -1,
+                          .shaders.watch.fd = -1,
+                          .content.watch.fd = -1,
+                          .warnings = warnings};
     return s;
 }
 

@@ -161,6 +161,8 @@ GN_OPTION(.name = "socket", .section = "kiosk", .kind = GN_KIND_PATH, .value = "
           .help = "the socket that ctl talks to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.socket))
 GN_OPTION(.name = "screenshots", .section = "kiosk", .kind = GN_KIND_PATH, .value = "DIR",
           .help = "folder that clients of the socket may have screenshots written to by the kiosk itself; without it, only gnomon ctl gets them", .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.screenshots))
+GN_OPTION(.name = "watch", .section = "kiosk", .kind = GN_KIND_FLAG,
+          .help = "show the scene and this file again when they change, once they are written to the end; what is wrong with them changes nothing but the status", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.watch))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
           .help = "show the name of a mode when it is entered", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
 GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",

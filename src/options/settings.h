@@ -146,6 +146,7 @@ struct gn_kiosk_settings {
     int64_t idle_after_ns, fade_ns;
     const char *socket;      /* NULL: see gn_listen_default() */
     const char *screenshots; /* folder; NULL: none */
+    bool watch;
     bool captions;
     int64_t caption_ns;
 };
