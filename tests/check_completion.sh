@@ -22,7 +22,7 @@ offers() {
     [ "$got" = "$expected" ] || complain "gnomon $*: offers '$got', expected '$expected'"
 }
 
-for command in '' show render bench inspect doctor ctl compare score lesson; do
+for command in '' show render bench bake inspect doctor ctl compare score lesson; do
     options=$("$gnomon" $command --help | sed -nE 's/^(      |  -[a-zA-Z], )(--[a-z-]+).*/\2/p')
     offers "$options" $command --
     [ "$(wc -w <<< "$options")" -ge 4 ] || complain "options of $command"
@@ -33,7 +33,7 @@ offers 'pcss' render --shadow = pcs
 offers '0 90 180 270' show --rotate ''
 offers 'lesson' les
 offers 'help' hel
-offers 'screenshot set status' ctl s
+offers 'scene screenshot set status' ctl s
 offers 'shadow shadow-strength shadow-specular' ctl set shadow
 offers 'smsm' ctl set shadow sm
 offers '' ctl status ''
