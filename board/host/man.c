@@ -8,7 +8,8 @@
 #include "options/command.h"
 #include "options/viewer_keys.h"
 
-static const char *const sections[] = {"display", "scene", "render", "camera", "light", "kiosk"};
+static const char *const sections[] = {"display", "scene", "render",  "camera",
+                                       "light",   "kiosk", "schedule"};
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 static const struct gn_help_entry section_texts[SECTIONS] = {
@@ -22,6 +23,7 @@ static const struct gn_help_entry section_texts[SECTIONS] = {
      "The light that a scene without any gets. [render] and modes take these keys, too, by "
      "the whole names of their options: light_azimuth."},
     {"kiosk", "What gnomon show does by itself."},
+    {"schedule", "When the screen is on, by local time."},
 };
 static const char light_text[] =
     "Settings of the lights of that name: their node's, or their own. They take the place of what "

@@ -197,8 +197,8 @@ static void print_buttons(const struct gn_options *o) {
 }
 
 static void print_check(const struct check *c, const struct gn_options *o) {
-    static const char *const sections[] = {"display", "scene", "render",
-                                           "camera",  "light", "kiosk"};
+    static const char *const sections[] = {"display", "scene", "render",  "camera",
+                                           "light",   "kiosk", "schedule"};
     printf("%s is valid: %d mode%s, %d button%s, %d scene%s\n", o->config_path, o->mode_count,
            o->mode_count == 1 ? "" : "s", o->buttons ? o->buttons->count : 0,
            o->buttons && o->buttons->count == 1 ? "" : "s", c->scene_count,

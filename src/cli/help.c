@@ -115,6 +115,7 @@ static const struct group {
     {"light of a scene without any, [light] in kiosk.ini", "light", false},
     {"display, [display] in kiosk.ini", "display", false},
     {"kiosk, [kiosk] in kiosk.ini", "kiosk", false},
+    {"hours, [schedule] in kiosk.ini", "schedule", false},
     {"other options", NULL, false},
 };
 

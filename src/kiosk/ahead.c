@@ -375,7 +375,7 @@ void gn_show_advance(struct gn_show *s) {
 
     /* a fade starts from the last picture, which is drawn once more and kept */
     if (s->rules.fade_ns > 0 && !s->split.on && s->stage.gl && s->stage.display.screen.lit &&
-        s->counts.frames > 0 && !s->fade.kept && !s->kiosk.blanked)
+        s->counts.frames > 0 && !s->fade.kept && !gn_kiosk_is_dark(&s->kiosk))
         s->fade.keeps = true;
     else
         show_wanted(s, scene);

@@ -151,8 +151,8 @@ static bool decode_uri(const char *uri, char *out, size_t size) {
     return !*uri;
 }
 
-static void add_referred(struct gn_contents *next, const struct gn_contents *before, const char *path,
-                         bool missed) {
+static void add_referred(struct gn_contents *next, const struct gn_contents *before,
+                         const char *path, bool missed) {
     static const char *const lists[] = {"buffers", "images"};
     const size_t length = strlen(path), folder = (size_t)(name_of(path) - path);
     struct gn_bytes bytes;

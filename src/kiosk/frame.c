@@ -13,14 +13,15 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     if (screen->black || s->changed || s->fade.keeps || screen->damaged || !screen->lit)
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
+    if (view.dark && s->drawn.dark) return false; /* black stays black */
     const bool moves = s->counts.most_frames < UINT64_MAX ||
                        (!view.stands && (view.clip >= 0 || s->stage.pose.animated ||
                                          s->stage.settings->scene.turntable_deg_s != 0.0));
     const struct gn_kiosk_view *drawn = &s->drawn;
     const bool differs =
-        view.mode != drawn->mode || view.scene != drawn->scene || view.camera != drawn->camera ||
-        view.clip != drawn->clip || view.info != drawn->info || view.old > 0.0f ||
-        drawn->old > 0.0f || view.caption != drawn->caption ||
+        view.dark != drawn->dark || view.mode != drawn->mode || view.scene != drawn->scene ||
+        view.camera != drawn->camera || view.clip != drawn->clip || view.info != drawn->info ||
+        view.old > 0.0f || drawn->old > 0.0f || view.caption != drawn->caption ||
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
     return moves || differs || gn_show_bar_moves(s) || gn_truth_wants_frame(s) ||
@@ -43,7 +44,8 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_FRAME, .time_ns = seen_ns};
     s->stage.is_behind = false;
-    if (screen->black) {
+    s->drawn.dark = view.dark;
+    if (screen->black || (view.dark && s->rules.sleeps_black)) {
         gn_gl_black(s->stage.gl);
         return true;
     }

@@ -37,7 +37,7 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
         gn_show_act(s, &action, event.time_ns);
 
         /* measures edges that change the picture; drops one that is undone before it was shown */
-        if (now->blanked || (gn_kiosk_waits(&before) && !gn_kiosk_waits(now)))
+        if (gn_kiosk_is_dark(now) || (gn_kiosk_waits(&before) && !gn_kiosk_waits(now)))
             gn_latency_drop(&s->buttons.latency);
         else if (before.wanted.mode != now->wanted.mode ||
                  before.wanted.scene != now->wanted.scene || before.camera != now->camera ||

@@ -16,6 +16,8 @@ bool gn_kiosk_waits(const struct gn_kiosk *s) {
     return s->shown.mode != s->wanted.mode || s->shown.scene != s->wanted.scene;
 }
 
+bool gn_kiosk_is_dark(const struct gn_kiosk *s) { return s->blanked || (s->asleep && !s->woken); }
+
 static void set_caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t time_ns) {
     s->caption = what;
     s->caption_begun_ns = time_ns;
@@ -138,7 +140,10 @@ static void act_pause(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
 static void act_blank(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                       const struct gn_kiosk_event *e) {
     (void)rules;
-    if (turns(s->blanked, e->turn)) s->blanked = !s->blanked;
+    if (!turns(gn_kiosk_is_dark(s), e->turn)) return;
+    const bool lights = gn_kiosk_is_dark(s);
+    s->blanked = !lights;
+    s->woken = lights && s->asleep;
 }
 
 static void act_info(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
@@ -155,11 +160,13 @@ static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
 #undef X
     };
     if (e->action == GN_ACTION_NONE) return;
-    if (s->play.clip_plus_1 > 0 && rules->plays_alone && e->pressed && !s->blanked) return;
+    if (s->play.clip_plus_1 > 0 && rules->plays_alone && e->pressed && !gn_kiosk_is_dark(s)) return;
     s->used_ns = e->time_ns;
-    if (s->blanked && !keeps_dark(e))
+    const bool sleeps = s->asleep && !s->woken;
+    if (sleeps ? e->pressed && !keeps_dark(e) : s->blanked && !keeps_dark(e)) {
         s->blanked = false;
-    else
+        s->woken = s->asleep;
+    } else
         acts[e->action](rules, s, e);
 }
 
@@ -176,7 +183,8 @@ static void check_timeouts(const struct gn_kiosk_rules *rules, struct gn_kiosk *
     if (s->fade_begun_ns != 0 && now_ns - s->fade_begun_ns >= rules->fade_ns) s->fade_begun_ns = 0;
     if (s->caption && now_ns - s->caption_begun_ns >= caption_duration_ns(rules, s->caption))
         s->caption = GN_KIOSK_CAPTION_NONE;
-    if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || s->blanked ||
+    if (s->woken && now_ns - s->used_ns >= rules->wake_ns) s->woken = false;
+    if (rules->idle == GN_IDLE_NONE || rules->idle_after_ns <= 0 || gn_kiosk_is_dark(s) ||
         s->play.clip_plus_1 > 0 || now_ns - s->used_ns < rules->idle_after_ns)
         return;
     s->used_ns = now_ns;
@@ -188,6 +196,14 @@ static void check_timeouts(const struct gn_kiosk_rules *rules, struct gn_kiosk *
     }
     s->wanted = (struct gn_kiosk_place){.mode = rules->first_mode};
     s->camera = 0;
+}
+
+/* In the morning it is lit, whoever has blanked it before. */
+static void change_hours(struct gn_kiosk *s, bool ended) {
+    if (s->asleep == ended) return;
+    s->asleep = ended;
+    s->woken = false;
+    if (!ended) s->blanked = false;
 }
 
 static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
@@ -244,6 +260,7 @@ struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct g
         next.camera = event->camera;
         set_caption(&next, GN_KIOSK_CAPTION_CAMERA, event->time_ns);
         break;
+    case GN_KIOSK_HOURS: change_hours(&next, event->by); break;
     case GN_KIOSK_SPEED:
         if (abs(next.speed + event->by) <= GN_KIOSK_SPEED_MOST) next.speed += event->by;
         break;
@@ -266,7 +283,7 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         .clip = then.play.clip_plus_1 - 1,
         .clip_ns = then.play.time_ns,
         .stands = state->paused,
-        .dark = state->blanked,
+        .dark = gn_kiosk_is_dark(state),
         .info = state->info,
         .caption_mode = state->wanted.mode,
         .caption_scene = gn_kiosk_scene(rules, &state->wanted),
@@ -288,7 +305,8 @@ int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_ki
     if (state->caption)
         at_ns =
             earlier_ns(at_ns, state->caption_begun_ns + caption_duration_ns(rules, state->caption));
-    if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !state->blanked &&
+    if (state->woken) at_ns = earlier_ns(at_ns, state->used_ns + rules->wake_ns);
+    if (rules->idle != GN_IDLE_NONE && rules->idle_after_ns > 0 && !gn_kiosk_is_dark(state) &&
         state->play.clip_plus_1 == 0)
         at_ns = earlier_ns(at_ns, state->used_ns + rules->idle_after_ns);
     return at_ns;

@@ -24,6 +24,8 @@ struct gn_kiosk_rules {                    /* zero means the default written bes
     int64_t fade_ns;       /* how long, from the old picture to the new; 0: at once */
     int64_t caption_ns;    /* how long; 0: no captions */
     bool names_first;      /* the first picture has a caption, too */
+    int64_t wake_ns;       /* outside of the hours: how long after a press it is on; 0: never */
+    bool sleeps_black;     /* outside of them it shows black; else it is switched off */
     bool plays_alone;      /* buttons do nothing while a clip plays once */
 };
 
@@ -45,9 +47,10 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     uint32_t bad_modes;                  /* bits 1 << mode: it failed */
     uint64_t bad_scenes;
     bool paused, blanked, info;
-    int speed;        /* logarithm to base 2 of the scene's speed, at most GN_KIOSK_SPEED_MOST */
-    int64_t scene_ns; /* the scene's time in the last frame */
-    int64_t seen_ns;  /* when that frame is on the screen; 0: no frame yet */
+    bool asleep, woken; /* outside of the hours; a press has lit the screen for a while */
+    int speed;          /* logarithm to base 2 of the scene's speed, at most GN_KIOSK_SPEED_MOST */
+    int64_t scene_ns;   /* the scene's time in the last frame */
+    int64_t seen_ns;    /* when that frame is on the screen; 0: no frame yet */
     int64_t fade_begun_ns;    /* monotonic; 0: no fade */
     int64_t caption_begun_ns; /* monotonic */
     enum gn_kiosk_caption caption;
@@ -67,7 +70,8 @@ enum gn_kiosk_event_kind {
     GN_KIOSK_SCENE_FAILED, /* `scene` cannot be loaded */
     GN_KIOSK_NOTE,         /* `caption` is to be shown */
     GN_KIOSK_CAMERA,       /* `camera` is chosen */
-    GN_KIOSK_SPEED,        /* the scene's time goes twice as fast (`by` 1), or half (-1) */
+    GN_KIOSK_HOURS, /* the hours in which the screen is on begin (`by` 0) or end (1), or go on */
+    GN_KIOSK_SPEED, /* the scene's time goes twice as fast (`by` 1), or half (-1) */
     GN_KIOSK_EVENT_COUNT,
 };
 struct gn_kiosk_event {
@@ -87,6 +91,7 @@ struct gn_kiosk_event {
 
 /* The number of a place's scene: the one that the mode names, else the one of the list. */
 int gn_kiosk_scene(const struct gn_kiosk_rules *rules, const struct gn_kiosk_place *place);
+bool gn_kiosk_is_dark(const struct gn_kiosk *state);
 bool gn_kiosk_waits(const struct gn_kiosk *state); /* the wanted place is not shown yet */
 struct gn_kiosk gn_kiosk_step(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state,
                               const struct gn_kiosk_event *event);

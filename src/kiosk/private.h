@@ -128,6 +128,10 @@ struct gn_show_fade {
     bool prepared;    /* the GPU has what keeping takes */
     bool keeps, kept; /* the next frame's picture is to be kept; it was */
 };
+struct gn_show_hours { /* of [schedule] */
+    struct gn_timer timer;
+    bool is_set, was_set; /* the clock, at the last look; it was once */
+};
 struct gn_show_counts {
     int64_t begun_ns; /* the program, about */
     uint64_t frames, most_frames;
@@ -159,6 +163,7 @@ struct gn_show {
     struct gn_show_stats stats;
     struct gn_shader_files shaders;
     struct gn_contents content;
+    struct gn_show_hours hours;
     struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
@@ -300,6 +305,9 @@ bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
 /* follow.c: the files that are watched; called again after each load, whatever became of it. */
 void gn_show_follow_content(struct gn_show *show, bool missed);
+
+/* hours.c: the screen is off by the clock; called again after a reload. */
+void gn_show_open_hours(struct gn_show *show);
 
 /* truth.c stands here; see truth.h. */
 

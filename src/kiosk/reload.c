@@ -45,7 +45,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     s->config.waits = false;
     s->stage.settings = options->settings;
     s->stage.frame_opts.view.orbit = (struct gn_orbit){0};
-    const bool blanked = s->kiosk.blanked;
+    const struct gn_kiosk before = s->kiosk;
     const bool begun = gn_show_begin(s, err);
     s->kiosk.shown.scene = s->kiosk.wanted.scene = r->scene;
     s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
@@ -55,7 +55,11 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
         gn_show_report_problem(s, why.text); /* not fatal: the kiosk runs without buttons */
-    s->kiosk.blanked = blanked;
+    s->kiosk.blanked = before.blanked;
+    s->kiosk.asleep = before.asleep;
+    s->kiosk.woken = before.woken;
+    s->kiosk.used_ns = before.used_ns;
+    gn_show_open_hours(s);
     if (s->text.cured) s->text.problem[0] = '\0';
     s->text.cured = false;
     if (!s->stage.settings->run.verbose) return true;

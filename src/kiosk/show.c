@@ -66,8 +66,8 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     /* the machine: timeouts, and the wanted mode and scene */
     const struct gn_kiosk_event tick = {.kind = GN_KIOSK_TICK, .time_ns = gn_loop_now_ns(s->loop)};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
-    if (s->kiosk.blanked != screen->blank)
-        gn_display_blank(&s->stage.display, s->kiosk.blanked, tick.time_ns);
+    const bool off = s->kiosk.blanked || (gn_kiosk_is_dark(&s->kiosk) && !s->rules.sleeps_black);
+    if (off != screen->blank) gn_display_blank(&s->stage.display, off, tick.time_ns);
     s->changed |= gn_service_step(&s->service, screen, gn_loop_now_ns(s->loop));
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_renew_shaders(s);
@@ -124,6 +124,7 @@ void gn_show_close(struct gn_show *s) {
     gn_shader_files_close(&s->shaders);
     gn_content_close(&s->content);
     gn_service_close(&s->service);
+    gn_loop_remove_timer(&s->hours.timer);
     gn_loop_remove_signals(&s->signals);
     gn_loop_close(s->loop);
     gn_changes_destroy(s->config.changes);
@@ -158,6 +159,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
         gn_show_report_error(s, err->text);
         *err = (struct gn_err){0};
     }
+    gn_show_open_hours(s);
     gn_show_stats_open(&s->stats, s->stage.settings, &s->stage.display, s->loop);
     gn_show_open_control(s);
     return true;

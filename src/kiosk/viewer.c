@@ -189,7 +189,7 @@ static void run_command(struct gn_show *s, enum gn_viewer_command command, int p
  */
 static bool only_wakes(struct gn_show *s) {
     const struct gn_action wake = {.kind = GN_ACTION_BLANK, .turn = GN_TURN_OFF};
-    if (s->kiosk.blanked)
+    if (gn_kiosk_is_dark(&s->kiosk))
         gn_show_act(s, &wake, gn_loop_now_ns(s->loop));
     else if (s->viewer.helps)
         show_help(s, false);

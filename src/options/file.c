@@ -81,7 +81,8 @@ static bool open_light(struct load *load, const struct gn_ini_line *line, struct
 }
 
 static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    static const char *const plain[] = {"display", "scene", "render", "camera", "light", "kiosk"};
+    static const char *const plain[] = {"display", "scene", "render",  "camera",
+                                        "light",   "kiosk", "schedule"};
     struct gn_options *options = load->options;
     struct gn_config_buttons *buttons = &load->buttons;
     load->first = NULL;
@@ -104,7 +105,7 @@ static bool open_section(struct load *load, const struct gn_ini_line *line, stru
                    gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
     return gn_fail_usage(err,
                          "%s: unknown section [%s]; expected [display], [scene], [render], "
-                         "[camera], [light], [kiosk], [mode \"NAME\"], "
+                         "[camera], [light], [kiosk], [schedule], [mode \"NAME\"], "
                          "[light \"NAME\"] or [button \"NAME\"]",
                          line->where, line->section);
 }

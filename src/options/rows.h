@@ -167,6 +167,15 @@ GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallbac
           .help = "show the name of a mode when it is entered", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
 GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",
           .fallback = "2", .help = "how long a caption is shown", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.caption_ns))
+/* when the screen is on */
+GN_OPTION(.name = "hours", .key = "on", .section = "schedule", .kind = GN_KIND_HOURS, .value = "HOURS", .fallback = "always",
+          .help = "hours of local time in which the screen is on, as mon-fri 08:00-20:00, sat 10:00-18:00; always on while the clock is not set", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.on))
+GN_OPTION(.name = "hours-off", .key = "off", .section = "schedule", .kind = GN_KIND_CHOICE, .choices = offs, .value = "HOW", .fallback = "dpms",
+          .help = "outside of them switch the display off, or show black, for displays that do not come back", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.off_is_black))
+GN_OPTION(.name = "hours-wake", .key = "wake", .section = "schedule", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds", .fallback = "300",
+          .help = "a button that is pressed outside of them switches the screen on, until so long after the last press", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.wake_ns))
+GN_OPTION(.name = "hours-clock", .key = "clock", .section = "schedule", .kind = GN_KIND_CHOICE, .choices = clocks, .value = "WHICH", .fallback = "checked",
+          .help = "checked: the clock counts as set once the network or a battery has set it; trusted: also otherwise, if it shows 2024 or later", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.clock_trusted))
 /* the command's own */
 GN_OPTION(.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "press keys and buttons as this file says: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(run.input_script))

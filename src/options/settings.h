@@ -9,6 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "options/schedule.h"
 #include "options/table.h"
 #include "shadow/technique.h"
 
@@ -150,6 +151,11 @@ struct gn_kiosk_settings {
     bool captions;
     int64_t caption_ns;
 };
+struct gn_schedule_settings {
+    struct gn_schedule on;
+    int off_is_black, clock_trusted; /* 0, 1 */
+    int64_t wake_ns;
+};
 struct gn_run_settings { /* of this run of the program: flags only */
     enum gn_command command;
     const char *input_script;
@@ -178,6 +184,7 @@ struct gn_settings {
     struct gn_light_settings light;
     struct gn_display_settings display;
     struct gn_kiosk_settings kiosk;
+    struct gn_schedule_settings schedule;
     struct gn_run_settings run;
     const struct gn_light_section *lights; /* of the file, the same in every mode */
     int light_count;

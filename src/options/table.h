@@ -46,6 +46,7 @@ enum gn_option_kind {
     GN_KIND_SCENES,     /* struct gn_scene_list: a path, given again it adds */
     GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */
     GN_KIND_POINT,      /* double[3], each min..max, or NAN for "auto"; "X,Y,Z" */
+    GN_KIND_HOURS,      /* struct gn_schedule */
     GN_KIND_CAPS,       /* const char *: names of gn_cap, a comma between two */
     GN_KIND_COUNT,
 };
@@ -65,7 +66,7 @@ struct gn_option_row {
     const char *name;    /* --name; the INI key has _ for - */
     const char *key;     /* INI key where it is another one, else NULL */
     const char *section; /* of the INI file: "display", "scene", "render", "camera", "light",
-                            "kiosk"; NULL: only a flag, or a key of [light "NAME"] */
+                            "kiosk", "schedule"; NULL: only a flag, or a key of [light "NAME"] */
     char letter;         /* -x, or 0 */
     enum gn_option_kind kind;
     double min, max;

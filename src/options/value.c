@@ -194,6 +194,7 @@ static bool parse_value(const struct gn_option_row *row, const char *text, void 
         return true;
     }
     case GN_KIND_LIMIT: return parse_limit(row, text, field, arena);
+    case GN_KIND_HOURS: return gn_schedule_parse(text, field);
     case GN_KIND_COUNT: break;
     }
     return false;
@@ -251,6 +252,7 @@ static const struct {
     [GN_KIND_PATH] = {sizeof(const char *), true},
     [GN_KIND_SCENES] = {sizeof(struct gn_scene_list), false},
     [GN_KIND_LIMIT] = {sizeof(struct gn_limits), false},
+    [GN_KIND_HOURS] = {sizeof(struct gn_schedule), false},
     [GN_KIND_CAPS] = {sizeof(const char *), true},
 };
 _Static_assert(sizeof kinds / sizeof kinds[0] == GN_KIND_COUNT, "a row per kind");
@@ -306,6 +308,9 @@ void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) 
     case GN_KIND_SCENES:
         snprintf(out, size, "%s (empty, or more than %d of them)", row->value, GN_SCENES_MAX);
         break;
+    case GN_KIND_HOURS:
+        snprintf(out, size, "always, or hours as mon-fri 08:00-20:00, sat 10:00-18:00");
+        break;
     case GN_KIND_LIMIT:
         snprintf(out, size, "NAME=VALUE with a whole number from %.0f to %.0f, at most %d times",
                  min, max, GN_LIMITS_MAX);
@@ -348,6 +353,7 @@ void gn_value_text(const struct gn_option_row *row, const void *field, char *out
         else
             snprintf(out, size, "%.9g,%.9g,%.9g", point[0], point[1], point[2]);
         break;
+    case GN_KIND_HOURS: gn_schedule_text(field, out, size); break;
     case GN_KIND_FLAG: snprintf(out, size, "%s", *(const bool *)field ? "yes" : "no"); break;
     case GN_KIND_INT: snprintf(out, size, "%d", *(const int *)field); break;
     case GN_KIND_NUMBER: snprintf(out, size, "%.9g", *(const double *)field); break;

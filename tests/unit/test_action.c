@@ -48,9 +48,8 @@ static void actions_are_read(void **state) {
 
 static void what_is_no_action_is_refused(void **state) {
     (void)state;
-    static const char *const bad[] = {"",      "nex",  "nextt",  "mode",
-                                      "mode ", "play", "next 1", "Next",
-                                      "blank o", "pause off on"};
+    static const char *const bad[] = {"",     "nex",    "nextt", "mode",    "mode ",
+                                      "play", "next 1", "Next",  "blank o", "pause off on"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct gn_action action = {0};
         struct gn_err err = {0};

@@ -194,34 +194,6 @@ static void blank_swallows_the_first_action(void **state) {
     assert_int_equal(s.wanted.mode, 1);
 }
 
-static struct gn_kiosk turn(struct gn_kiosk s, enum gn_action_kind action, enum gn_turn turn,
-                            bool pressed) {
-    return gn_kiosk_step(&three, &s,
-                         &(struct gn_kiosk_event){.kind = GN_KIOSK_ACTION,
-                                                  .time_ns = S,
-                                                  .action = action,
-                                                  .turn = turn,
-                                                  .pressed = pressed});
-}
-
-static void on_and_off_are_the_same_twice(void **state) {
-    (void)state;
-    for (int twice = 1; twice <= 2; twice++) {
-        struct gn_kiosk s = {0};
-        for (int i = 0; i < twice; i++) s = turn(s, GN_ACTION_PAUSE, GN_TURN_ON, i);
-        for (int i = 0; i < twice; i++) s = turn(s, GN_ACTION_INFO, GN_TURN_ON, i);
-        for (int i = 0; i < twice; i++) s = turn(s, GN_ACTION_BLANK, GN_TURN_ON, i);
-        assert_true(s.paused && s.info && s.blanked);
-        for (int i = 0; i < twice; i++) s = turn(s, GN_ACTION_PAUSE, GN_TURN_OFF, false);
-        assert_true(!s.paused && s.info && s.blanked); /* a timer does not light the screen, */
-        s = turn(s, GN_ACTION_INFO, GN_TURN_OFF, true);
-        assert_true(s.info && !s.blanked); /* a press does that alone */
-        for (int i = 0; i < twice; i++) s = turn(s, GN_ACTION_INFO, GN_TURN_OFF, false);
-        for (int i = 0; i < twice; i++) s = turn(s, GN_ACTION_BLANK, GN_TURN_OFF, i);
-        assert_true(!s.paused && !s.info && !s.blanked);
-    }
-}
-
 static void a_pause_stands_and_goes_on_from_there(void **state) {
     (void)state;
     struct gn_kiosk s = on(&three, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 100 * S);
@@ -453,7 +425,6 @@ int main(void) {
         cmocka_unit_test(another_mode_ends_a_clip_and_a_pause_holds_it),
         cmocka_unit_test(the_idle_timeout_begins_at_the_end_of_a_clip),
         cmocka_unit_test(blank_swallows_the_first_action),
-        cmocka_unit_test(on_and_off_are_the_same_twice),
         cmocka_unit_test(a_pause_stands_and_goes_on_from_there),
         cmocka_unit_test(a_bad_scene_leaves_the_one_that_is_shown),
         cmocka_unit_test(the_only_other_scene_is_tried_again),

@@ -122,7 +122,7 @@ static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
     if (!gn_screenshot_permits(r->words[0], r->fd, folder, target, err)) return NULL;
     if (c->screenshot) {
         gn_fail(err, "busy");
-    } else if (s->kiosk.blanked) {
+    } else if (gn_kiosk_is_dark(&s->kiosk)) {
         gn_fail(err, "screenshot: the screen is switched off");
     } else if (!screen->lit || !s->stage.gl) {
         gn_fail(err, "screenshot: nothing is shown: %s",

@@ -62,8 +62,7 @@ static bool read_members(json_t *root, struct gn_request *out, struct gn_err *er
     for (int i = 0; i < GN_CTL_WORDS_MAX && row->members[i]; i++) {
         char number[40];
         const bool any = strcmp(row->members[i], "value") == 0;
-        if (i >= gn_ctl_words_least(out->command) && !json_object_get(root, row->members[i]))
-            break;
+        if (i >= gn_ctl_words_least(out->command) && !json_object_get(root, row->members[i])) break;
         const char *word =
             word_of(json_object_get(root, row->members[i]), any, number, sizeof number);
         if (!word)

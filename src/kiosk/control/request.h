@@ -20,8 +20,8 @@ struct gn_request {
 };
 
 /* {"cmd":"set","key":"exposure","value":-2}: strings, for "value" also a number or a boolean. One
- * in brackets may be left out. Not an object, a duplicate, unknown or missing member, or bad UTF-8 is a usage error. The words point
- * into out->text. */
+ * in brackets may be left out. Not an object, a duplicate, unknown or missing member, or bad UTF-8
+ * is a usage error. The words point into out->text. */
 bool gn_request_parse(const char *line, size_t length, struct gn_request *out, struct gn_err *err);
 
 /* Replies, new references. Bytes that are not UTF-8 become "?". */
