@@ -51,6 +51,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to);
  *     intensity: of the strongest channel; made: not in the file),
  * cameras [{name, type, yfov_deg|null, half_height_m|null, near_m, far_m|null, made}],
  * clips [{name, duration_s, channels, on}] (on: plays by default),
+ * variants [name] (of materials),
  * hemisphere {sky, ground, background},
  * cost {width_px, height_px, passes, shadow_passes, draws, shadow_draws, programs, culled,
  *     triangles, shadow_triangles, vertex_bytes, index_bytes, texture_bytes, map_bytes,

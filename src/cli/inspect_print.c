@@ -110,6 +110,9 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
                    s->animation.clips[i].channel_count,
                    s->animation.clips[i].channel_count == 1 ? "" : "s",
                    s->animation.clips[i].on_by_default ? "on" : "off");
+    if (s->variants.count) fprintf(to, "\nVariants of materials\n");
+    for (uint32_t i = 0; i < s->variants.count; i++)
+        print_line(to, "%-3u %s", i, s->variants.names[i]);
 }
 
 void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
@@ -235,7 +238,7 @@ static json_t *content_json(const struct gn_inspection *in) {
 static void add_lists(json_t *all, const struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
     json_t *images = json_array(), *lights = json_array(), *cameras = json_array();
-    json_t *clips = json_array();
+    json_t *clips = json_array(), *variants = json_array();
     for (uint32_t i = 0; i < s->pictures.image_count; i++) {
         const struct gn_image *image = &s->pictures.images[i];
         json_array_append_new(
@@ -267,6 +270,9 @@ static void add_lists(json_t *all, const struct gn_inspection *in) {
     json_object_set_new(all, "lights", lights);
     json_object_set_new(all, "cameras", cameras);
     json_object_set_new(all, "clips", clips);
+    for (uint32_t i = 0; i < s->variants.count; i++)
+        json_array_append_new(variants, gn_json_make_text(s->variants.names[i]));
+    json_object_set_new(all, "variants", variants);
 }
 
 bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err) {

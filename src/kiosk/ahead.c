@@ -65,8 +65,8 @@ static void fail_reload(struct gn_show *s, const struct gn_err *err) {
 
 /* All that the mode can need, on this screen. */
 static const struct gn_plan *plan_mode(const struct gn_show *s, const struct gn_show_looks *looks,
-                                       struct gn_frame *frame, const struct gn_pose *pose,
-                                       int mode) {
+                                       struct gn_frame *frame, struct gn_pose *pose, int mode) {
+    const int variant = pose->variant;
     const struct gn_frame_opts *now = &s->stage.frame_opts;
     struct gn_frame_opts opts = looks->of[mode].frame_opts;
     opts.width_px = now->width_px;
@@ -76,12 +76,15 @@ static const struct gn_plan *plan_mode(const struct gn_show *s, const struct gn_
     opts.msaa = now->msaa;
     opts.all_seen = true;
     opts.captions_later = true;
-    return gn_frame_build(frame, pose, &opts, NULL);
+    gn_pose_choose_variant(pose, looks->of[mode].variant);
+    const struct gn_plan *plan = gn_frame_build(frame, pose, &opts, NULL);
+    gn_pose_choose_variant(pose, variant);
+    return plan;
 }
 
 /* wanted: the mode waits for it. True: it did a piece; false: nothing was left to do. */
 static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
-                      const struct gn_pose *pose, int mode, bool wanted) {
+                      struct gn_pose *pose, int mode, bool wanted) {
     struct gn_err err = {0};
     char text[sizeof err.text + 64];
     const struct gn_plan *plan = plan_mode(s, looks, *frame, pose, mode);
@@ -171,6 +174,7 @@ void gn_show_stage_reload(struct gn_show *s, const struct gn_stage_look *look) {
     scenes->looks.ready = 0;
     if (look->clips != scenes->staged->pose.clips)
         gn_pose_choose(&scenes->staged->pose, look->clips);
+    gn_pose_choose_variant(&scenes->staged->pose, look->variant);
     s->ahead.idle = false;
 }
 

@@ -27,14 +27,14 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
     return NULL;
 }
 
-/* Cameras and clips that the settings name are those of another scene. */
+/* Cameras, clips and variants that the settings name are those of another scene. */
 const char *gn_show_put_file(struct gn_options *o, const char *path) {
     const struct gn_scene_list list = {.paths = {gn_arena_strdup(&o->arena, path)}, .count = 1};
     const struct gn_option_row *row = gn_option_rows;
     while (row->offset != offsetof(struct gn_settings, scene.path)) row++;
     for (int i = 0; i < o->all_count; i++) {
         gn_settings_put(&o->all[i], row, &list, GN_SOURCE_FLAG, row->name);
-        o->all[i].scene.camera = o->all[i].scene.animation = NULL;
+        o->all[i].scene.camera = o->all[i].scene.animation = o->all[i].scene.variant = NULL;
     }
     return list.paths[0];
 }
@@ -74,7 +74,8 @@ static bool is_same_path(const char *a, const char *b) { return a && strcmp(a, b
 static void replace_scene(struct gn_options *o, const char *path) {
     for (int i = 0; i < o->all_count; i++) {
         struct gn_scene_settings *scene = &o->all[i].scene;
-        if (is_same_path(scene->path, path)) scene->camera = scene->animation = NULL;
+        if (is_same_path(scene->path, path))
+            scene->camera = scene->animation = scene->variant = NULL;
         for (int k = 0; k < scene->list.count; k++)
             if (is_same_path(scene->list.paths[k], path)) scene->list.paths[k] = NULL;
     }

@@ -114,6 +114,7 @@ void gn_show_enter(struct gn_show *s) {
     if (look->frame_opts.view.camera == before.view.camera)
         s->stage.frame_opts.view.orbit = before.view.orbit;
     if (look->clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, look->clips);
+    gn_pose_choose_variant(&s->stage.pose, look->variant);
     s->ahead.keeps = s->ahead.idle = false;
     s->changed = true;
 }

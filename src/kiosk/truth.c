@@ -90,6 +90,7 @@ static void follow(struct gn_show *s) {
     now.height_px = f->height_px;
     now.mode = s->kiosk.shown.mode;
     now.clips = s->stage.pose.clips;
+    now.variant = s->stage.pose.variant;
     if (memcmp(&now, &t->of, sizeof now) == 0) return;
     gn_truth_drop(s);
     memcpy(&t->of, &now, sizeof now);

@@ -21,7 +21,7 @@ struct gn_show_truth { /* zeroed: off */
         struct gn_frame_view_opts view;
         int64_t time_ns;
         uint32_t width_px, height_px;
-        int mode, clips;
+        int mode, clips, variant;
     } of;               /* what is cast */
     int64_t changed_ns; /* since then it is the same */
     int percent;        /* that the caption tells */

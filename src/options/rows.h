@@ -12,6 +12,8 @@ GN_OPTION(.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value 
           .help = "play only this clip (default: all that do not collide)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
 GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
           .help = "do not animate", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
+GN_OPTION(.name = "variant", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|auto",
+          .help = "variant of the scene's materials (KHR_materials_variants); auto: as the file has them without one", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.variant))
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "start at this time of the animation", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.time_ns))
 GN_OPTION(.name = "floor", .section = "scene", .kind = GN_KIND_LEVEL, .min = -1e6, .max = 1e6, .value = "auto|none|HEIGHT", .unit = "metres", .fallback = "auto",

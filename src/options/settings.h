@@ -79,6 +79,7 @@ struct gn_scene_settings {
         struct gn_scene_list list; /* that one, and those of next-scene */
     };
     const char *camera, *animation; /* NAME or number; NULL: the first; animation may be "none" */
+    const char *variant;            /* NAME or number; "auto" or NULL: none */
     bool no_animation;
     int64_t time_ns;
     double turntable_deg_s;

@@ -58,6 +58,7 @@ bool gn_scene_complete(struct gn_gltf *g) {
     if (scene->box.min[0] > scene->box.max[0]) /* nothing is visible in the initial pose */
         scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
     gn_scene_find_planes(g, &pose);
+    gn_gltf_variant_planes(g);
     const bool measured = gn_scene_measure(g, &pose);
     if (measured) gn_scene_add_floor(g, &pose);
     gn_pose_finish(&pose);

@@ -34,7 +34,8 @@ static bool check_triangles(struct gn_gltf *g) {
         uint64_t triangles = 0;
         const struct gn_primitive *primitives = &g->primitives.list[mesh->first_primitive];
         for (uint32_t k = 0; k < mesh->primitive_count; k++)
-            triangles += g->primitives.shapes[primitives[k].geometry].corner_count / 3;
+            if (!(primitives[k].hidden_in & 1))
+                triangles += g->primitives.shapes[primitives[k].geometry].corner_count / 3;
         const uint64_t instances = placed->instance_count ? placed->instance_count : 1;
         if (triangles > 0 && instances > (g->limits.triangles_per_frame - total) / triangles)
             return gn_gltf_fail(g, &nodes,
@@ -57,6 +58,7 @@ static const struct {
     {gn_gltf_accessors, 420},
     {count_textures, 450},
     {gn_gltf_nodes, 450},
+    {gn_gltf_variants, 460},
     {gn_gltf_meshes, 460},
     {gn_gltf_instances, 470},
     {check_triangles, 480},
@@ -172,11 +174,12 @@ void gn_scene_destroy(struct gn_scene *scene) {
 
 /* ---- finding ---- */
 
-enum list { CAMERAS, LIGHTS, CLIPS };
+enum list { CAMERAS, LIGHTS, CLIPS, VARIANTS };
 
 /* second: of a camera or a light, the name of its node. */
 static const char *listed_name(const struct gn_scene *scene, enum list list, uint32_t i,
                                bool second) {
+    if (list == VARIANTS) return scene->variants.names[i];
     if (list == CLIPS) return scene->animation.clips[i].name;
     if (list == LIGHTS)
         return second ? scene->nodes[scene->lights[i].node].name : scene->lights[i].name;
@@ -185,9 +188,9 @@ static const char *listed_name(const struct gn_scene *scene, enum list list, uin
 
 static int find_listed(const struct gn_scene *scene, enum list list, const char *what,
                        struct gn_err *err) {
-    static const char *const kinds[] = {"camera", "light", "animation"};
-    const uint32_t counts[] = {scene->camera_count, scene->light_count,
-                               scene->animation.clip_count};
+    static const char *const kinds[] = {"camera", "light", "animation", "variant"};
+    const uint32_t counts[] = {scene->camera_count, scene->light_count, scene->animation.clip_count,
+                               scene->variants.count};
     const char *kind = kinds[list];
     const uint32_t count = counts[list];
     if (count > 0 && (!what || !*what)) return 0;
@@ -220,4 +223,8 @@ int gn_scene_find_light(const struct gn_scene *scene, const char *what, struct g
 
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err) {
     return find_listed(scene, CLIPS, what, err);
+}
+
+int gn_scene_find_variant(const struct gn_scene *scene, const char *what, struct gn_err *err) {
+    return find_listed(scene, VARIANTS, what, err);
 }

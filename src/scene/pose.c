@@ -59,6 +59,7 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
         for (int k = 0; k < 3; k++)
             out->visible &= fabsf(out->box_ws.min[k]) < LIMIT && fabsf(out->box_ws.max[k]) < LIMIT;
     }
+    out->visible &= !(item->hidden_in >> (pose->variant + 1) & 1);
     if (!out->visible) out->box_ws = GN_BOX_EMPTY;
     out->hash = gn_hash(GN_HASH_INIT, out->world_from_item, sizeof out->world_from_item);
     if (gn_item_is_deformed(item))
@@ -94,7 +95,7 @@ static void mark_channel(struct gn_pose *pose, const struct gn_channel *channel)
 }
 
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
-    *pose = (struct gn_pose){.scene = scene, .clips = clips};
+    *pose = (struct gn_pose){.scene = scene, .clips = clips, .variant = GN_POSE_DEFAULT};
     struct memory *memory = pose->memory = gn_xalloc(1, sizeof *memory);
     pose->world_from_node = gn_xalloc(scene->node_count, sizeof *pose->world_from_node);
     pose->node_moves = gn_xalloc(scene->node_count, sizeof *pose->node_moves);
@@ -104,6 +105,33 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
     memory->items = gn_xalloc(scene->item_count, sizeof *memory->items);
     gn_deformer_init(&memory->deformer, pose);
     gn_pose_choose(pose, clips);
+}
+
+static void measure_still(struct gn_pose *pose) {
+    struct memory *memory = pose->memory;
+    const struct gn_scene *scene = pose->scene;
+    memory->still_ws = GN_BOX_EMPTY;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (!pose->items[i].moves && !scene->materials[scene->items[i].material].shadow_catcher)
+            gn_box_join(&memory->still_ws, &pose->items[i].box_ws);
+}
+
+/* Of those that are animated, with the others. */
+static void measure_moving(struct gn_pose *pose) {
+    const struct memory *memory = pose->memory;
+    pose->box_ws = memory->still_ws;
+    for (uint32_t i = 0; i < memory->item_count; i++)
+        gn_box_join(&pose->box_ws, &pose->items[memory->items[i]].box_ws);
+}
+
+void gn_pose_choose_variant(struct gn_pose *pose, int variant) {
+    const struct gn_scene *scene = pose->scene;
+    if (pose->variant == variant) return;
+    pose->variant = variant;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (scene->items[i].hidden_in) pose_item(pose, i);
+    measure_still(pose);
+    measure_moving(pose);
 }
 
 void gn_pose_choose(struct gn_pose *pose, int clips) {
@@ -141,15 +169,11 @@ void gn_pose_choose(struct gn_pose *pose, int clips) {
     }
 
     /* everything is posed once; items that are not animated keep this pose */
-    memory->still_ws = GN_BOX_EMPTY;
     for (uint32_t i = 0; i < scene->node_count; i++) pose_node(pose, i);
     gn_deformer_step(&memory->deformer, pose, false);
-    for (uint32_t i = 0; i < scene->item_count; i++) {
-        if (pose->items[i].moves) continue;
-        pose_item(pose, i);
-        if (!scene->materials[scene->items[i].material].shadow_catcher)
-            gn_box_join(&memory->still_ws, &pose->items[i].box_ws);
-    }
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (!pose->items[i].moves) pose_item(pose, i);
+    measure_still(pose);
     pose->box_ws = memory->still_ws;
     if (pose->aimed) gn_pose_aim(pose, pose->aim_ws);
     gn_pose_step(pose, 0);
@@ -180,11 +204,8 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     }
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     gn_deformer_step(&memory->deformer, pose, true);
-    pose->box_ws = memory->still_ws;
-    for (uint32_t i = 0; i < memory->item_count; i++) {
-        pose_item(pose, memory->items[i]);
-        gn_box_join(&pose->box_ws, &pose->items[memory->items[i]].box_ws);
-    }
+    for (uint32_t i = 0; i < memory->item_count; i++) pose_item(pose, memory->items[i]);
+    measure_moving(pose);
 }
 
 void gn_pose_finish(struct gn_pose *pose) {

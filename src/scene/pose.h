@@ -15,14 +15,15 @@ struct gn_pose_item {
     struct gn_box box;    /* of what it is made of, item space */
     struct gn_box box_ws;
     bool mirrored; /* negative determinant: front faces wind the other way */
-    bool visible;  /* false: scaled to nothing or not finite; never drawn */
+    bool visible;  /* false: scaled to nothing, not finite, or of another variant; never drawn */
     bool moves;    /* a channel moves or deforms it */
     uint64_t hash; /* of all that its vertices depend on */
 };
 
 struct gn_pose {
     const struct gn_scene *scene;
-    int clips; /* enum gn_pose_clips or a number */
+    int clips;   /* enum gn_pose_clips or a number */
+    int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
     int64_t time_ns;
     mat4 *world_from_node;      /* scene->node_count */
     struct gn_pose_item *items; /* scene->item_count */
@@ -41,6 +42,9 @@ struct gn_pose {
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips);
 /* Changes the clips, as if initialised again; allocates nothing. */
 void gn_pose_choose(struct gn_pose *pose, int clips);
+/* Shows the items of that variant of materials, at the same time; a new pose has none. Allocates
+ * nothing. */
+void gn_pose_choose_variant(struct gn_pose *pose, int variant);
 /* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; nodes that
  * are not animated cost nothing. */
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns);

@@ -48,7 +48,6 @@ struct gn_accessor {
 /* X(NAME, words, extension of materials or NULL): what is not supported yet; the scene is shown
  * without, and missing.c lists it. */
 #define GN_MISSING(X)                                                                              \
-    X(VARIANTS, "material variants", NULL)                                                         \
     X(BASISU, "KTX2 pictures", NULL)                                                               \
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
     X(POINTERS, "animation pointers", NULL)                                                        \
@@ -71,7 +70,8 @@ enum gn_missing {
 
 struct gn_primitive { /* of a mesh */
     uint32_t geometry;
-    int32_t material; /* the file's number, or -1 */
+    int32_t material;   /* the file's number, or -1 */
+    uint64_t hidden_in; /* as in gn_item */
 };
 struct gn_mesh {
     bool used, skinned; /* by a node; by one with a skin */
@@ -214,6 +214,7 @@ bool gn_gltf_uses(const struct gn_gltf *g, const char *extension);
 bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf/buffers.c */
 bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf/accessor.c */
 bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf/node.c */
+bool gn_gltf_variants(struct gn_gltf *g);   /* gltf/variant.c */
 bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf/mesh.c */
 bool gn_gltf_instances(struct gn_gltf *g);  /* gltf/instance.c */
 bool gn_gltf_skins(struct gn_gltf *g);      /* gltf/skin.c */
@@ -352,6 +353,19 @@ void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
 
 /* gltf/instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
 bool gn_gltf_instances(struct gn_gltf *g);
+
+/* gltf/variant.c */
+/* A material of a primitive, where other variants have others. */
+struct gn_variant_material {
+    int32_t material; /* the file's number, or -1 */
+    uint64_t in;      /* the same bits as those of gn_item.hidden_in: where it is shown */
+};
+/* How many there may be at most, and those that there are, the one without a variant first. */
+size_t gn_gltf_variant_most(struct gn_gltf *g, const struct gn_at *primitive);
+size_t gn_gltf_variant_materials(struct gn_gltf *g, const struct gn_at *primitive,
+                                 struct gn_variant_material *out);
+/* Puts items that variants hide at first into the planes of those in their place. */
+void gn_gltf_variant_planes(struct gn_gltf *g);
 
 /* plane.c: sets item->plane, by gnomon_plane or by finding large flat faces. pose: as the file
  * places the nodes. */

@@ -137,6 +137,7 @@ struct gn_item {
     uint32_t batch;       /* equal for items that can share a call; ascending */
     bool casts, receives; /* gnomon_cast, gnomon_receive */
     bool casts_alpha;     /* gnomon_cast_alpha: blended, it casts a shadow by its alpha, dithered */
+    uint64_t hidden_in;   /* bit 0: without a variant; bit i + 1: in variant i */
     uint8_t plane;        /* in which it receives planar shadows, from 1; 0: in none */
     enum gn_cast_faces cast_faces;
 };
@@ -252,6 +253,13 @@ struct gn_scene_environment { /* linear, after exposure */
     vec3 background;
     bool has_background; /* the file names one */
 };
+/* KHR_materials_variants: of a primitive with several materials there is an item for each, which
+ * the pose hides in the variants of the others. */
+enum { GN_VARIANTS_MAX = 63 };
+struct gn_scene_variants {
+    const char **names;
+    uint32_t count;
+};
 struct gn_scene_added {        /* by the loader, as the last one, because the file has none */
     bool light, camera, floor; /* the floor: an item whose material is a shadow catcher */
 };
@@ -279,12 +287,13 @@ struct gn_scene {
     struct gn_scene_deformation deformation;
     struct gn_scene_environment environment;
     struct gn_scene_added added;
+    struct gn_scene_variants variants;
     struct gn_extent *extents; /* over the time of all clips that a pose plays: at its `clips` minus
                                   GN_POSE_NONE */
 
     struct gn_box
         box; /* of everything visible, world space, nodes as the file places them; never empty */
-    uint64_t triangle_count; /* of all items */
+    uint64_t triangle_count; /* of all items that are shown without a variant */
     bool planes_named;       /* by gnomon_plane; else those that there are were found */
     struct gn_scene_memory memory;
 };
@@ -370,6 +379,7 @@ uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);
 /* By name, else by number; -1 and a usage error that lists all. NULL or "" finds the first. */
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err);
 int gn_scene_find_light(const struct gn_scene *scene, const char *what, struct gn_err *err);
+int gn_scene_find_variant(const struct gn_scene *scene, const char *what, struct gn_err *err);
 int gn_scene_find_clip(const struct gn_scene *scene, const char *what, struct gn_err *err);
 
 #endif

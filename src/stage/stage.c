@@ -107,6 +107,16 @@ static bool choose_clips(const struct gn_settings *o, const struct gn_scene *sce
     return do_without(o, clip, warnings, err);
 }
 
+static bool choose_variant(const struct gn_settings *o, const struct gn_scene *scene, int *variant,
+                           struct gn_warnings *warnings, struct gn_err *err) {
+    *variant = GN_POSE_DEFAULT;
+    if (!o->scene.variant || strcmp(o->scene.variant, "auto") == 0) return true;
+    *variant = gn_scene_find_variant(scene, o->scene.variant, err);
+    if (*variant >= 0) return true;
+    *variant = GN_POSE_DEFAULT;
+    return do_without(o, offsetof(struct gn_settings, scene.variant), warnings, err);
+}
+
 /* Points of a lamp in a mask while something moves: their error is .04 in penumbrae. */
 enum { GATHER_POINTS = 16 };
 
@@ -219,7 +229,9 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
                          struct gn_err *err) {
     const bool of_light = o->render.aov != GN_AOV_COLOR && o->render.aov != GN_AOV_DISTANCE &&
                           o->render.aov != GN_AOV_NORMAL;
-    if (!choose_clips(o, scene, &look->clips, warnings, err)) return false;
+    if (!choose_clips(o, scene, &look->clips, warnings, err) ||
+        !choose_variant(o, scene, &look->variant, warnings, err))
+        return false;
     if (of_light && (o->render.light < 0 || (uint32_t)o->render.light >= scene->light_count))
         return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
                              gn_settings_label(o, render.light), o->render.light,
@@ -252,6 +264,7 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     if (!scene || !gn_stage_look_build(&look, settings, scene, warnings, err)) return false;
     stage->frame_opts = look.frame_opts;
     gn_pose_init(&stage->pose, scene, look.clips);
+    gn_pose_choose_variant(&stage->pose, look.variant);
     gn_pose_step(&stage->pose, settings->scene.time_ns);
     gn_stage_aim(&stage->pose, &stage->frame_opts, settings);
     return true;

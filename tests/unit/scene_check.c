@@ -170,7 +170,7 @@ static const char *check_items(const struct gn_scene *scene) {
         NEED(item->batch != before->batch || item->geometry == before->geometry);
         NEED(scene->geometries[item->geometry].index_count > 0);
         NEED(!item->plane || scene->geometries[item->geometry].flat);
-        triangles += scene->geometries[item->geometry].index_count / 3;
+        if (!(item->hidden_in & 1)) triangles += scene->geometries[item->geometry].index_count / 3;
     }
     NEED(scene->items[0].batch == 0);
     NEED(scene->items[scene->item_count - 1].batch == scene->batch_count - 1);

@@ -246,10 +246,9 @@ static json_t *report(void) {
 static void test_json_has_its_fields(void **state) {
     (void)state;
     static const char *const fields[] = {
-        "file",   "name",          "size_m",  "counts",   "materials",
-        "images", "lights",        "cameras", "clips",    "hemisphere",
-        "cost",   "limits",        "missing", "warnings", "warnings_dropped",
-        "advice", "advice_dropped"};
+        "file",   "name",    "size_m",   "counts",           "materials",  "images",
+        "lights", "cameras", "clips",    "variants",         "hemisphere", "cost",
+        "limits", "missing", "warnings", "warnings_dropped", "advice",     "advice_dropped"};
     set_lights(1, "{'type':'spot','intensity':50}", 2);
     inspect();
     json_t *all = report();

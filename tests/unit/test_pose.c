@@ -224,6 +224,68 @@ static void test_view_and_light(void **state) {
     gn_pose_view(&pose, 0, view, NULL);
 }
 
+/* ---- variants of materials ---- */
+
+/* Square 0 is of material 0 and in variants 1 and 2 of material 1; a mapping to its own material
+ * and a second one for a variant change nothing. */
+static void use_variants(void) {
+    gn_maker_set(&maker, "extensions",
+                 "{'KHR_materials_variants':{'variants':[{'name':'red'},{'name':'blue'},{'name':"
+                 "'night'}]}}");
+    gn_maker_set(&maker, "materials", "[{'name':'a'},{'name':'b','alphaMode':'MASK'}]");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0,"
+                 "'extensions':{'KHR_materials_variants':{'mappings':["
+                 "{'material':0,'variants':[0]},{'material':1,'variants':[2,1]},"
+                 "{'material':0,'variants':[1]}]}}}]}]");
+    gn_maker_set(&maker, "nodes", "[{'mesh':0},{'mesh':0,'translation':[0,1,0]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+}
+
+static void test_each_variant_shows_its_materials(void **state) {
+    (void)state;
+    use_variants();
+    load(GN_POSE_DEFAULT);
+    assert_int_equal(scene->variants.count, 3);
+    assert_string_equal(scene->variants.names[2], "night");
+    assert_int_equal(scene->item_count, 4 + scene->added.floor);
+    assert_int_equal(scene->triangle_count, 4 + 2 * scene->added.floor);
+    static const char *const shown[] = {"a", "a", "b", "b"};
+    for (int variant = 2; variant >= -1; variant--) {
+        const size_t before = gn_alloc_count();
+        gn_pose_choose_variant(&pose, variant);
+        assert_int_equal(gn_alloc_count(), before);
+        for (uint32_t i = 0; i < scene->item_count; i++) {
+            const struct gn_material *m = &scene->materials[scene->items[i].material];
+            if (m->shadow_catcher) continue;
+            assert_int_equal(pose.items[i].visible, strcmp(m->name, shown[variant + 1]) == 0);
+        }
+        assert_true(pose.box_ws.max[1] == 1 && pose.box_ws.min[1] == 0);
+    }
+    assert_int_equal(gn_scene_find_variant(scene, "blue", &err), 1);
+    assert_int_equal(gn_scene_find_variant(scene, "green", &err), -1);
+    assert_string_equal(err.text,
+                        "no variant named 'green'; available: 0 'red', 1 'blue', 2 'night'");
+}
+
+static void test_variants_of_copies_lie_in_their_plane(void **state) {
+    (void)state;
+    use_variants();
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'extras':{'gnomon_plane':true}}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0]}]");
+    load(GN_POSE_DEFAULT);
+    assert_int_equal(scene->item_count, 2 + scene->added.floor);
+    for (uint32_t i = 0; i < 2; i++) assert_int_equal(scene->items[i].plane, 1);
+}
+
+static void test_a_variant_that_is_not_there_fails(void **state) {
+    (void)state;
+    use_variants();
+    gn_maker_set(&maker, "extensions", "{'KHR_materials_variants':{'variants':[{'name':'red'}]}}");
+    assert_null(gn_maker_load(&maker, &warnings, &err));
+    assert_non_null(strstr(err.text, "mappings[1].variants[0]"));
+}
+
 #define TEST(f) cmocka_unit_test_setup_teardown(f, setup, teardown)
 
 int main(void) {
@@ -239,6 +301,9 @@ int main(void) {
         TEST(test_unusable_channels_are_left_out),
         TEST(test_a_matrix_that_is_animated),
         TEST(test_view_and_light),
+        TEST(test_each_variant_shows_its_materials),
+        TEST(test_variants_of_copies_lie_in_their_plane),
+        TEST(test_a_variant_that_is_not_there_fails),
     };
     return RUN(tests);
 }

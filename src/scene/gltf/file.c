@@ -111,6 +111,7 @@ static const char *const SUPPORTED[] = {
     "KHR_materials_clearcoat",
     "KHR_materials_transmission",
     "EXT_texture_webp",
+    "KHR_materials_variants",
 };
 
 static const struct cure {
@@ -158,12 +159,6 @@ bool gn_gltf_check_support(struct gn_gltf *g) {
     if (least && strcmp(least, "2.0") != 0)
         return gn_gltf_fail(g, &least_at, "'%.20s'; only glTF 2.0 is read", least);
 
-    struct gn_at used = gn_at_array(g, &root, "extensionsUsed");
-    for (size_t i = 0; i < gn_at_size(&used); i++) {
-        const char *name = json_string_value(json_array_get(used.json, i));
-        if (name && strcmp(name, "KHR_materials_variants") == 0)
-            g->is_missing[GN_MISSING_VARIANTS] = true;
-    }
     struct gn_at required = gn_at_array(g, &root, "extensionsRequired");
     for (size_t i = 0; i < gn_at_size(&required); i++) {
         struct gn_at at = gn_at_element(&required, i);

@@ -17,11 +17,13 @@ static bool add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitiv
     uint32_t fallback = (uint32_t)g->file.material_count;
     for (uint32_t k = 0; k < copies_of(placed); k++) {
         struct gn_item *item = &scene->items[scene->item_count++];
-        scene->triangle_count += scene->geometries[primitive->geometry].index_count / 3;
+        if (!(primitive->hidden_in & 1))
+            scene->triangle_count += scene->geometries[primitive->geometry].index_count / 3;
         *item = (struct gn_item){
             .node = node,
             .geometry = primitive->geometry,
             .material = primitive->material < 0 ? fallback : (uint32_t)primitive->material,
+            .hidden_in = primitive->hidden_in,
             .instance = placed->instance_count > 0 ? (int32_t)(placed->first_instance + k) : -1,
             .casts = placed->casts,
             .casts_alpha = placed->casts_alpha,

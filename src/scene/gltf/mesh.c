@@ -150,16 +150,15 @@ static bool read_targets(const struct reader *reader, const struct gn_at *primit
     return true;
 }
 
-static void read_primitive(struct reader *reader, const struct gn_at *primitive, uint32_t mesh,
-                           uint32_t index) {
+/* Adds the primitive with that material; base: its mesh, number and targets. */
+static bool add_primitive(struct reader *reader, const struct gn_at *primitive,
+                          const struct gn_shape *base, int32_t material, uint64_t hidden_in) {
     struct gn_gltf *g = reader->g;
-    struct gn_shape shape = {.mesh = mesh, .primitive = index, .vertices = UINT32_MAX};
-    int32_t material = gn_at_ref(g, primitive, "material", g->file.material_count, "materials");
-    if (!read_targets(reader, primitive, &shape)) return;
+    struct gn_shape shape = *base;
     shape.tangents = gn_gltf_tangents(g, material);
     uint64_t uv_sets[GN_UV_SETS];
     gn_gltf_uv_sets(g, material, uv_sets);
-    if (g->failed || !read_shape(g, primitive, uv_sets, &shape) || g->failed) return;
+    if (g->failed || !read_shape(g, primitive, uv_sets, &shape) || g->failed) return false;
     choose_tangents(g, primitive, uv_sets, &shape);
     uint32_t *known = gn_table_find(&reader->shapes, shape.attribute);
     if (*known == 0) {
@@ -180,8 +179,22 @@ static void read_primitive(struct reader *reader, const struct gn_at *primitive,
         g->primitives.shapes[reader->shape_count++] = shape;
         *known = reader->shape_count;
     }
-    g->primitives.list[g->primitives.count++] = (struct gn_primitive){*known - 1, material};
-    g->file.meshes[mesh].primitive_count++;
+    g->primitives.list[g->primitives.count++] =
+        (struct gn_primitive){*known - 1, material, hidden_in};
+    g->file.meshes[shape.mesh].primitive_count++;
+    return true;
+}
+
+static void read_primitive(struct reader *reader, const struct gn_at *primitive, uint32_t mesh,
+                           uint32_t index) {
+    struct gn_gltf *g = reader->g;
+    struct gn_shape shape = {.mesh = mesh, .primitive = index, .vertices = UINT32_MAX};
+    struct gn_variant_material own[GN_VARIANTS_MAX + 1];
+    const size_t count = gn_gltf_variant_materials(g, primitive, own);
+    if (g->failed || !read_targets(reader, primitive, &shape)) return;
+    const uint64_t all = count > 1 ? UINT64_MAX >> (GN_VARIANTS_MAX - g->scene->variants.count) : 0;
+    for (size_t i = 0; i < count; i++)
+        if (!add_primitive(reader, primitive, &shape, own[i].material, all & ~own[i].in)) return;
 }
 
 bool gn_gltf_meshes(struct gn_gltf *g) {
@@ -192,7 +205,10 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
     size_t primitives = 0;
     for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
         struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
-        if (g->file.meshes[i].used) primitives += gn_at_size(&list);
+        for (size_t k = 0; g->file.meshes[i].used && k < gn_at_size(&list) && !g->failed; k++) {
+            struct gn_at primitive = gn_at_item(g, &list, k);
+            primitives += gn_gltf_variant_most(g, &primitive);
+        }
     }
     g->primitives.list = gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.list);
     g->primitives.shapes =
