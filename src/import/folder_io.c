@@ -64,7 +64,8 @@ static struct aiFile *open_file(struct aiFileIO *io, const char *name, const cha
     }
     if (is_model && import->format == GN_MODEL_PLY) gn_import_ply_guard(&bytes);
     if (is_model && import->format == GN_MODEL_OBJ) gn_import_obj_pad(&bytes);
-    if (!is_model && is_material) gn_import_mtl_clean(&bytes);
+    if (!is_model && is_material)
+        gn_import_mtl_clean(import, gn_import_relative_name(import, name), &bytes);
     struct opened *o = gn_import_alloc(sizeof *o);
     *o = (struct opened){.bytes = bytes};
     o->file = (struct aiFile){.ReadProc = read_some,

@@ -20,7 +20,8 @@ static const char *skip_blanks(const char *c, const char *end) {
     return c;
 }
 
-static bool is_readable(const char *line, const char *end) {
+/* word: set where it is one that assimp knows, and only its number is wrong. */
+static bool is_readable(const char *line, const char *end, const char **word) {
     const char *c = skip_blanks(line, end);
     size_t length = 0;
     while (c + length < end && !isspace((unsigned char)c[length])) length++;
@@ -31,17 +32,29 @@ static bool is_readable(const char *line, const char *end) {
                         strncasecmp(value, "nan", 3) == 0 || strncasecmp(value, "inf", 3) == 0);
     if (length > 4 && strncasecmp(c, "map_", 4) == 0) return true;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
-        if (strlen(words[i].name) == length && strncasecmp(c, words[i].name, length) == 0)
-            return !words[i].has_number || is_number;
+        if (strlen(words[i].name) == length && strncasecmp(c, words[i].name, length) == 0) {
+            if (!words[i].has_number || is_number) return true;
+            *word = words[i].name;
+        }
     return false;
 }
 
-void gn_import_mtl_clean(struct gn_bytes *bytes) {
+void gn_import_mtl_clean(const struct gn_import *import, const char *name, struct gn_bytes *bytes) {
+    size_t number = 1, damaged = 0, first = 0;
+    const char *what = "";
     char *c = (char *)bytes->data, *end = c + bytes->size;
     while (c < end) {
         char *line = c;
         while (c < end && *c != '\n' && *c != '\r') c++;
-        if (!is_readable(line, c)) memset(line, ' ', (size_t)(c - line));
-        while (c < end && (*c == '\n' || *c == '\r')) c++;
+        const char *word = NULL;
+        if (!is_readable(line, c, &word)) memset(line, ' ', (size_t)(c - line));
+        if (word && damaged++ == 0) {
+            first = number;
+            what = word;
+        }
+        for (; c < end && (*c == '\n' || *c == '\r'); c++) number += *c == '\n';
     }
+    if (damaged > 0)
+        gn_warn(import->warnings, "%s: %.100s:%zu: %s without a number; shown without this line%s",
+                import->opts->model, name, first, what, damaged > 1 ? " and others like it" : "");
 }

@@ -58,8 +58,9 @@ void gn_import_obj_pad(struct gn_bytes *bytes);
 
 /* ---- mtl.c ---- */
 
-/* Blanks the lines of a material file for which assimp would refuse the model. */
-void gn_import_mtl_clean(struct gn_bytes *bytes);
+/* Blanks the lines of a material file for which assimp would refuse the model; warns of those whose
+ * number cannot be read. */
+void gn_import_mtl_clean(const struct gn_import *import, const char *name, struct gn_bytes *bytes);
 
 /* ---- the scene ---- */
 

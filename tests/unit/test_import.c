@@ -58,6 +58,17 @@ static void test_phong_becomes_roughness_by_the_renderers_rule(void **state) {
     gn_scene_destroy(scene);
 }
 
+static void test_a_material_line_without_its_number_is_left_out_and_named(void **state) {
+    (void)state;
+    help_import_put("a.obj", SQUARE_OBJ);
+    help_import_put("a.mtl", "newmtl m\n\nKd red\naniso\nNs\nd 0.25\n");
+    struct gn_scene *scene = help_import_load("a.obj");
+    help_import_near(help_import_material(scene)->base_color[3], 0.25f);
+    help_import_warned("a.mtl:3: Kd without a number; shown without this line and others like it");
+    assert_int_equal(help_import_warnings()->count, 1);
+    gn_scene_destroy(scene);
+}
+
 static void test_opacity_blends_and_none_at_all_is_not_believed(void **state) {
     (void)state;
     help_import_put("a.obj", SQUARE_OBJ);
@@ -315,6 +326,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_square_of_an_obj_stands_upright_with_its_picture),
         cmocka_unit_test(test_phong_becomes_roughness_by_the_renderers_rule),
+        cmocka_unit_test(test_a_material_line_without_its_number_is_left_out_and_named),
         cmocka_unit_test(test_opacity_blends_and_none_at_all_is_not_believed),
         cmocka_unit_test(test_holes_in_a_picture_mask_and_glass_blends),
         cmocka_unit_test(test_an_opacity_picture_becomes_the_alpha),

@@ -42,6 +42,13 @@ static void test_not_gltf(void **state) {
     refuse_text("  hello",
                 "t: byte 2: neither .glb ('glTF') nor .gltf ('{'); what can be read is .glb and "
                 ".gltf, and .obj .fbx .stl .ply .dae through gnomon-import: export it as .glb");
+    refuse_text("BLENDER-v400",
+                "t: a Blender file; what can be read is .glb and .gltf, and .obj .fbx .stl .ply "
+                ".dae through gnomon-import: open it in Blender and choose File > Export > glTF "
+                "2.0, format .glb");
+    refuse_text("#usda 1.0", "t: USD; what can be read is .glb and .gltf, and .obj .fbx .stl .ply "
+                             ".dae through gnomon-import: import it into Blender and export glTF "
+                             "2.0 (.glb)");
     refuse_text("glTF", "t: byte 4: the file ends within the .glb header");
     refuse_text("{\"a\":[}", "t: byte 7 (line 1): JSON: unexpected token near '}'");
     refuse_text("{\"a\":\"\xff\"}",

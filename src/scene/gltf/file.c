@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "core/model.h"
 #include "scene/gltf/meshopt.h"
@@ -79,6 +80,34 @@ static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
     return true;
 }
 
+/* Files that people take for scenes, by their first bytes or the suffix of their name, since .blend
+ * files may be compressed, and .usdz is a ZIP archive. */
+static const struct other {
+    const char *magic, *suffix, *name, *cure;
+} OTHERS[] = {
+    {"BLENDER", ".blend", "a Blender file",
+     "open it in Blender and choose File > Export > glTF 2.0, format .glb"},
+    {"#usda", ".usda", "USD", "import it into Blender and export glTF 2.0 (.glb)"},
+    {"PXR-USDC", ".usdc", "USD", "import it into Blender and export glTF 2.0 (.glb)"},
+    {NULL, ".usdz", "USD", "import it into Blender and export glTF 2.0 (.glb)"},
+    {NULL, ".usd", "USD", "import it into Blender and export glTF 2.0 (.glb)"},
+    {"ISO-10303-21", ".step", "STEP", "export .glb, .stl or .obj from the CAD program"},
+    {NULL, ".stp", "STEP", "export .glb, .stl or .obj from the CAD program"},
+    {"#?", ".hdr", "a Radiance picture", "--environment FILE.hdr lights a scene by it"},
+    {"\xabKTX 20\xbb", ".ktx2", "a KTX2 texture", "name the scene that uses it"},
+};
+
+static const struct other *find_other(const struct gn_gltf *g, const uint8_t *data, size_t size) {
+    const char *dot = strrchr(g->path, '.');
+    for (size_t i = 0; i < sizeof OTHERS / sizeof OTHERS[0]; i++) {
+        const struct other *o = &OTHERS[i];
+        const size_t length = o->magic ? strlen(o->magic) : SIZE_MAX;
+        if (size >= length && memcmp(data, o->magic, length) == 0) return o;
+        if (dot && strcasecmp(dot, o->suffix) == 0) return o;
+    }
+    return NULL;
+}
+
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
     if (size == 0) return gn_gltf_fail(g, NULL, "byte 0: the file is empty");
     if (size >= 4 && memcmp(data, "glTF", 4) == 0) return open_glb(g, data, size);
@@ -89,6 +118,12 @@ bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
     for (size_t i = 0, used = 0; i < GN_MODEL_FORMAT_COUNT && used < sizeof others; i++)
         used += (size_t)snprintf(others + used, sizeof others - used, "%s%s", i ? " " : "",
                                  gn_model_formats[i].suffix);
+    const struct other *other = find_other(g, data, size);
+    if (other)
+        return gn_gltf_fail(g, NULL,
+                            "%s; what can be read is .glb and .gltf, and %s through "
+                            "gnomon-import: %s",
+                            other->name, others, other->cure);
     return gn_gltf_fail(g, NULL,
                         "byte %zu: neither .glb ('glTF') nor .gltf ('{'); what can be read is .glb "
                         "and .gltf, and %s through gnomon-import: export it as .glb",
@@ -120,7 +155,8 @@ static const struct cure {
     {"KHR_draco_mesh_compression", "decompress it first (gltf-transform can)"},
     {"EXT_meshopt_compression", "decompress it first (gltf-transform can)"}, /* not in this build */
     {"KHR_meshopt_compression", "decompress it first (gltf-transform can)"},
-    {"KHR_texture_basisu", "export it with PNG or JPEG pictures"},
+    {"KHR_texture_basisu", "export the scene with PNG or JPEG pictures; KTX-Software's \"ktx "
+                           "extract\" makes PNG of .ktx2"},
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 
