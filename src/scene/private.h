@@ -50,7 +50,7 @@ struct gn_accessor {
 #define GN_MISSING(X)                                                                              \
     X(BASISU, "KTX2 pictures", NULL)                                                               \
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
-    X(POINTERS, "animation pointers", NULL)                                                        \
+    X(POINTERS, "animation of other things than nodes", NULL)                                      \
     X(COAT_NORMALS, "normal maps of clear coat", NULL)                                             \
     X(VOLUME, "refraction in volumes", NULL)                                                       \
     X(SHEEN, "sheen", "KHR_materials_sheen")                                                       \

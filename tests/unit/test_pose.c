@@ -224,6 +224,47 @@ static void test_view_and_light(void **state) {
     gn_pose_view(&pose, 0, view, NULL);
 }
 
+static void animate_by_pointer(const char *pointer, int output) {
+    char json[400];
+    snprintf(json, sizeof json,
+             "{'samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':{'path':"
+             "'pointer','extensions':{'KHR_animation_pointer':{'pointer':'%s'}}}}]}",
+             TIMES, output, pointer);
+    gn_maker_add(&maker, "animations", json);
+}
+
+static void test_a_pointer_to_a_node_is_a_channel(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "extensionsRequired", "['KHR_animation_pointer']");
+    animate_by_pointer("/nodes/0/translation", MOVE);
+    load(GN_POSE_DEFAULT);
+    assert_int_equal(warnings.count, 0);
+    assert_at(.5, 0, 2, 0, 0);
+    assert_at(1.5, 1, 2, 1, 4);
+}
+
+static void test_other_pointers_are_named_and_not_played(void **state) {
+    (void)state;
+    static const char *const pointers[] = {"/materials/0/emissiveFactor",
+                                           "/nodes/0/name",
+                                           "/nodes/3/scale",
+                                           "/nodes/99999999999999999999/scale",
+                                           "/nodes//scale",
+                                           "/nodes/0/scale/0",
+                                           ""};
+    enum { COUNT = sizeof pointers / sizeof pointers[0] };
+    for (int i = 0; i < COUNT; i++) animate_by_pointer(pointers[i], MOVE);
+    load(GN_POSE_DEFAULT);
+    assert_int_equal(scene->animation.channel_count, 0);
+    assert_int_equal(warnings.count, COUNT + 1);
+    for (int i = 0; i < COUNT; i++) {
+        char text[160];
+        snprintf(text, sizeof text, "animation of '%s' is not supported", pointers[i]);
+        assert_non_null(strstr(warnings.text[i], text));
+    }
+    assert_string_equal(scene->missing, "animation of other things than nodes");
+}
+
 /* ---- variants of materials ---- */
 
 /* Square 0 is of material 0 and in variants 1 and 2 of material 1; a mapping to its own material
@@ -301,6 +342,8 @@ int main(void) {
         TEST(test_unusable_channels_are_left_out),
         TEST(test_a_matrix_that_is_animated),
         TEST(test_view_and_light),
+        TEST(test_a_pointer_to_a_node_is_a_channel),
+        TEST(test_other_pointers_are_named_and_not_played),
         TEST(test_each_variant_shows_its_materials),
         TEST(test_variants_of_copies_lie_in_their_plane),
         TEST(test_a_variant_that_is_not_there_fails),

@@ -4,6 +4,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct sampler {
@@ -62,25 +63,46 @@ static const float *read_times(struct gn_gltf *g, const struct sampler *sampler)
 
 /* ---- channels ---- */
 
+static const char *const path_names[] = {[GN_ANIM_TRANSLATION] = "translation",
+                                         [GN_ANIM_ROTATION] = "rotation",
+                                         [GN_ANIM_SCALE] = "scale",
+                                         [GN_ANIM_WEIGHTS] = "weights"};
+
+/* KHR_animation_pointer: "/nodes/3/rotation" is a plain channel; others are named by a warning. */
+static int32_t read_pointer(struct gn_gltf *g, const struct gn_at *target,
+                            enum gn_anim_path *path) {
+    static const char nodes[] = "/nodes/";
+    struct gn_at extension = gn_at_extension(g, target, "extensions.KHR_animation_pointer");
+    const char *pointer = gn_at_text(g, &extension, "pointer");
+    if (g->failed) return -1;
+    const bool of_node = pointer && strncmp(pointer, nodes, sizeof nodes - 1) == 0;
+    const char *digits = of_node ? pointer + sizeof nodes - 1 : "";
+    const size_t length = strspn(digits, "0123456789");
+    for (size_t i = 0; length > 0 && length < 10 && i < 4; i++)
+        if (digits[length] == '/' && strcmp(digits + length + 1, path_names[i]) == 0) {
+            const unsigned long node = strtoul(digits, NULL, 10);
+            *path = (enum gn_anim_path)i;
+            if (node < g->file.node_count) return g->to_scene.node[node];
+        }
+    g->is_missing[GN_MISSING_POINTERS] = true;
+    gn_gltf_warn(g, target, "animation of '%.100s' is not supported; not played",
+                 pointer ? pointer : "");
+    return -1;
+}
+
 /* The node of the scene that the channel animates, and its path; -1: none, or not supported. */
 static int32_t read_target(struct gn_gltf *g, const struct gn_at *at, enum gn_anim_path *path) {
-    static const char *const names[] = {[GN_ANIM_TRANSLATION] = "translation",
-                                        [GN_ANIM_ROTATION] = "rotation",
-                                        [GN_ANIM_SCALE] = "scale",
-                                        [GN_ANIM_WEIGHTS] = "weights"};
     struct gn_at target = gn_at_object(g, at, "target");
     int32_t node = gn_at_ref(g, &target, "node", g->file.node_count, "nodes");
     const char *name = gn_at_text(g, &target, "path");
     if (g->failed || !name) return -1;
-    int word = gn_json_word(gn_at_any(&target, "path").json, names, 4);
+    int word = gn_json_word(gn_at_any(&target, "path").json, path_names, 4);
     if (word >= 0) {
         *path = (enum gn_anim_path)word;
         return node < 0 ? -1 : g->to_scene.node[node];
     }
-    if (strcmp(name, "pointer") == 0)
-        g->is_missing[GN_MISSING_POINTERS] = true;
-    else
-        gn_gltf_warn(g, &target, "path '%.20s' is unknown; ignored", name);
+    if (strcmp(name, "pointer") == 0) return read_pointer(g, &target, path);
+    gn_gltf_warn(g, &target, "path '%.20s' is unknown; ignored", name);
     return -1;
 }
 

@@ -147,6 +147,7 @@ static const char *const SUPPORTED[] = {
     "KHR_materials_transmission",
     "EXT_texture_webp",
     "KHR_materials_variants",
+    "KHR_animation_pointer",
 };
 
 static const struct cure {
