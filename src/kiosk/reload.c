@@ -78,6 +78,12 @@ void gn_show_drop_reload(struct gn_show *s) {
     s->reload = (struct gn_show_reload){0};
 }
 
+/* The default scene is shown in place of the first one. */
+static void report_missing(struct gn_show *s, const char *why) {
+    gn_show_report_error(s, why);
+    s->text.cured = true;
+}
+
 /* The last good configuration stays. The error is shown on the screen, but one of ctl's file is the
  * client's alone. */
 static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct gn_err *why) {
@@ -224,7 +230,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     *r = (struct gn_show_reload){0};
     const bool ok = take_reload(s, &taken, err);
     if (ok && taken.first) s->counts.frames = 0;
-    if (ok && taken.why[0]) gn_show_report_error(s, taken.why);
+    if (ok && taken.why[0]) report_missing(s, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);
     gn_show_follow_content(s, false);
     return ok;
@@ -279,6 +285,6 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     loaded->scene = NULL;
     loaded->pose = (struct gn_pose){0};
     gn_show_drop_reload(s);
-    if (ok && missing[0]) gn_show_report_error(s, missing);
+    if (ok && missing[0]) report_missing(s, missing);
     return ok;
 }

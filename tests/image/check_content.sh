@@ -131,6 +131,19 @@ for _ in $(seq 60); do ctl status | grep -q '^config.error: -' && break || sleep
 ctl status | grep -q '^config.error: -' || complain 'a cured kiosk.ini is not seen'
 ctl get shadow | grep -q 'value: hard' || complain 'a changed kiosk.ini is not taken'
 
+# a scene that is missing at the start comes later
+ctl quit > /dev/null
+wait "$kiosk" || complain "it ends with $?: $(cat kiosk.err)"
+rm shown/later.gltf
+"$gnomon" show -c shown/kiosk.ini --socket "$folder/ctl" > kiosk.out 2> kiosk.err &
+kiosk=$!
+for _ in $(seq 200); do ctl status 2> err | grep -q '^problem: .*showing the default scene' && break || sleep 0.1; done
+ctl status | grep -q '^config.error: .*later.gltf' || complain 'a missing scene is not told on the screen'
+cp red.gltf shown/later.gltf
+for _ in $(seq 100); do ctl status | grep -q '^problem: -' && break || sleep 0.1; done
+ctl status | grep -q '^config.error: -' || complain 'a scene that comes later is not seen'
+shows red || complain 'a scene that comes later is not shown'
+
 ctl quit > /dev/null
 wait "$kiosk" || complain "it ends with $?: $(cat kiosk.err)"
 kiosk=''
