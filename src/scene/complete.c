@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "scene/deform.h"
+#include "scene/exact.h"
 #include "scene/framing.h"
 
 /* A node at position whose -Z looks along forward_ws. */
@@ -18,7 +19,7 @@ static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec
     glm_vec3_negate(node->matrix[2]);
     glm_vec3_crossn(GLM_YUP, node->matrix[2], node->matrix[0]);
     glm_vec3_cross(node->matrix[2], node->matrix[0], node->matrix[1]);
-    glm_vec3_copy(position, node->matrix[3]);
+    gn_exact_put(&scene->place, position, node->matrix[3], node->rest);
     glm_vec3_one(node->scale);
     glm_quat_identity(node->rotation);
     return scene->node_count++;

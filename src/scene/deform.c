@@ -6,6 +6,7 @@
 
 #include "core/arena.h"
 #include "core/hash.h"
+#include "scene/exact.h"
 #include "scene/private.h"
 
 /* ---- matrices ------------------------------------------------------------------------------ */
@@ -126,7 +127,9 @@ static void step_skin(struct gn_deformer *d, struct gn_pose *pose, uint32_t inde
         vec4 *texels = texels_at(pose, &skin->rows, k);
         mat4 m;
         mat3 cofactor;
-        if (joint->node >= 0)
+        if (joint->node >= 0 && pose->exact)
+            gn_exact_place(pose, (uint32_t)joint->node, (vec4 *)joint->joint_from_mesh, NULL, m);
+        else if (joint->node >= 0)
             glm_mat4_mul(pose->world_from_node[joint->node], (vec4 *)joint->joint_from_mesh, m);
         else
             glm_mat4_identity(m);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "scene/exact.h"
 #include "scene/pose.h"
 
 enum {
@@ -128,8 +129,8 @@ void gn_scene_add_floor(struct gn_gltf *g, struct gn_pose *pose) {
     const float half_m = REACH * size / 2;
     vec3 middle;
     glm_vec3_center((float *)box->min, (float *)box->max, middle);
-    middle[1] =
-        floor->kind == GN_FLOOR_HEIGHT ? floor->height_m : lowest_point(scene) - BELOW * size;
+    middle[1] = floor->kind == GN_FLOOR_HEIGHT ? (float)(floor->height_m - scene->place.origin[1])
+                                               : lowest_point(scene) - BELOW * size;
     gn_pose_choose(pose, GN_POSE_DEFAULT); /* what is still at all times occludes */
     const int32_t occlusion = gn_floor_occlusion(g, pose, middle, half_m * GN_FLOOR_OCCLUDED);
     if (g->failed) return;
@@ -140,10 +141,10 @@ void gn_scene_add_floor(struct gn_gltf *g, struct gn_pose *pose) {
     scene->nodes[node] = (struct gn_node){
         .name = gn_gltf_strdup(g, "floor"),
         .parent = -1,
-        .translation = {middle[0], middle[1], middle[2]},
         .rotation = {0, 0, 0, 1},
         .scale = {half_m, 1, half_m},
     };
+    gn_exact_put(&scene->place, middle, scene->nodes[node].translation, scene->nodes[node].rest);
     struct gn_material *m = &scene->materials[material];
     gn_material_init(m);
     m->name = scene->nodes[node].name;

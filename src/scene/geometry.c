@@ -44,6 +44,17 @@ static float *read_floats(struct gn_gltf *g, const struct gather *gather, size_t
     return floats;
 }
 
+/* What is taken off the positions of an accessor that lie far off (gltf/far.c), or NULL. */
+static const double *origin_of(const struct gn_gltf *g, const struct gn_shape *shape) {
+    const bool of_skin = shape->attribute[GN_ATTRIBUTE_JOINTS0] >= 0;
+    return of_skin ? NULL : g->file.origins[shape->attribute[GN_ATTRIBUTE_POSITION]];
+}
+
+static void take_origin(const double *origin, float *positions, size_t count) {
+    for (size_t i = 0; origin && i < 3 * count; i++)
+        positions[i] = (float)((double)positions[i] - origin[i % 3]);
+}
+
 /* All attributes but positions and normals, of the vertices first .. first + count; huge and
  * infinite values become 0. */
 static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
@@ -210,8 +221,9 @@ static bool make_own(struct gn_gltf *g, const struct gn_at *at, const struct gn_
     if (count < a->count && !number_used_vertices(g, raw, count, &used, &vertices.count))
         return false;
     vertices.source = used;
-    const float *positions = read_floats(g, &vertices, 3);
+    float *positions = read_floats(g, &vertices, 3);
     if (!positions) return false;
+    take_origin(origin_of(g, shape), positions, vertices.count);
     own->corner_count = unroll_triangles(g, at, shape, raw, positions, own->corners);
     struct gather normals = {.accessor =
                                  gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_NORMAL])};
@@ -318,6 +330,7 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
         struct gather gather = {.first = vertices->first, .count = vertices->count};
         gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_POSITION]);
         put_floats(&gather, 3, buffers->positions + 3 * gather.first);
+        take_origin(origin_of(g, shape), buffers->positions + 3 * gather.first, gather.count);
         gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
         put_floats(&gather, 3, buffers->normals + 3 * gather.first);
         normalize_normals(buffers->normals + 3 * gather.first, gather.count,
@@ -391,6 +404,7 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
         struct gn_at at = gn_at_element(&list, shape->primitive);
         gn_arena_reset(&g->memory.step);
         geometry->first_index = scene->buffers.index_count;
+        geometry->origin = origin_of(g, shape);
         for (int k = 0; k < GN_ATTRIBUTE_COUNT; k++)
             geometry->attributes |= (uint32_t)(shape->attribute[k] >= 0) << k;
         bool filled = shape->vertices == UINT32_MAX ? fill_own_geometry(g, &at, shape, geometry)

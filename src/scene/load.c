@@ -63,6 +63,7 @@ static const struct {
     {gn_gltf_instances, 470},
     {check_triangles, 480},
     {gn_gltf_skins, 480},
+    {gn_gltf_far, 480},
     {gn_gltf_geometries, 480},
     {gn_gltf_items, 700},
     {gn_gltf_materials, 710},

@@ -7,6 +7,7 @@
 #include "core/arena.h"
 #include "core/hash.h"
 #include "scene/deform.h"
+#include "scene/exact.h"
 #include "scene/private.h"
 
 struct memory {              /* pose->memory */
@@ -19,19 +20,6 @@ struct memory {              /* pose->memory */
 
 #define LIMIT GN_POSE_LIMIT
 
-/* ---- matrices ---- */
-
-void gn_node_local(const struct gn_node *node, mat4 parent_from_node) {
-    if (node->has_matrix) {
-        glm_mat4_copy((vec4 *)node->matrix, parent_from_node);
-        return;
-    }
-    glm_quat_mat4((float *)node->rotation, parent_from_node);
-    for (int k = 0; k < 3; k++)
-        glm_vec3_scale(parent_from_node[k], node->scale[k], parent_from_node[k]);
-    glm_vec3_copy((float *)node->translation, parent_from_node[3]);
-}
-
 /* ---- items ---- */
 
 static void pose_item(struct gn_pose *pose, uint32_t i) {
@@ -39,7 +27,11 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
     const struct gn_item *item = &scene->items[i];
     struct gn_pose_item *out = &pose->items[i];
     vec4 *world_from_node = pose->world_from_node[item->node];
-    if (item->instance < 0)
+    if (pose->exact)
+        gn_exact_place(pose, item->node,
+                       item->instance < 0 ? NULL : scene->instances[item->instance],
+                       scene->geometries[item->geometry].origin, out->world_from_item);
+    else if (item->instance < 0)
         glm_mat4_copy(world_from_node, out->world_from_item);
     else
         glm_mat4_mul(world_from_node, scene->instances[item->instance], out->world_from_item);
@@ -68,6 +60,10 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
 
 static void pose_node(struct gn_pose *pose, uint32_t i) {
     const struct gn_node *node = &((struct memory *)pose->memory)->local[i];
+    if (pose->exact) {
+        gn_exact_step(pose, node, i);
+        return;
+    }
     mat4 local;
     gn_node_local(node, local);
     if (node->parent < 0)
@@ -92,6 +88,7 @@ static void mark_channel(struct gn_pose *pose, const struct gn_channel *channel)
         memory->deformer.morph_moves[channel->morph] = true;
     else
         pose->node_moves[channel->node] = true;
+    if (channel->path == GN_ANIM_TRANSLATION) glm_vec3_zero(memory->local[channel->node].rest);
 }
 
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
@@ -100,6 +97,7 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
     pose->world_from_node = gn_xalloc(scene->node_count, sizeof *pose->world_from_node);
     pose->node_moves = gn_xalloc(scene->node_count, sizeof *pose->node_moves);
     pose->items = gn_xalloc(scene->item_count, sizeof *pose->items);
+    if (scene->place.exact) pose->exact = gn_xalloc(scene->node_count, sizeof *pose->exact);
     memory->local = gn_xalloc(scene->node_count, sizeof *memory->local);
     memory->nodes = gn_xalloc(scene->node_count, sizeof *memory->nodes);
     memory->items = gn_xalloc(scene->item_count, sizeof *memory->items);
@@ -218,6 +216,7 @@ void gn_pose_finish(struct gn_pose *pose) {
         free(memory);
     }
     free(pose->world_from_node);
+    free(pose->exact);
     free(pose->node_moves);
     free(pose->items);
     free(pose->texels);

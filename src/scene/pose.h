@@ -20,12 +20,14 @@ struct gn_pose_item {
     uint64_t hash; /* of all that its vertices depend on */
 };
 
+struct gn_exact;
 struct gn_pose {
     const struct gn_scene *scene;
     int clips;   /* enum gn_pose_clips or a number */
     int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
     int64_t time_ns;
     mat4 *world_from_node;      /* scene->node_count */
+    struct gn_exact *exact;     /* the same, before the origin is moved; NULL: floats are enough */
     struct gn_pose_item *items; /* scene->item_count */
     struct gn_box box_ws;       /* of all visible items */
     bool animated;              /* some clip is on: time changes the pose */

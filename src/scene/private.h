@@ -122,6 +122,7 @@ struct gn_gltf_file { /* what the file declares, by its own numbers */
     struct gn_view *views;
     struct gn_accessor *accessors;
     const float **key_times; /* per accessor: times already copied */
+    double **origins;        /* per accessor: what is taken off its positions, or NULL */
     struct gn_mesh *meshes;
     size_t buffer_count, view_count, accessor_count, mesh_count, material_count, node_count,
         texture_count, image_count, skin_count;
@@ -218,6 +219,7 @@ bool gn_gltf_variants(struct gn_gltf *g);   /* gltf/variant.c */
 bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf/mesh.c */
 bool gn_gltf_instances(struct gn_gltf *g);  /* gltf/instance.c */
 bool gn_gltf_skins(struct gn_gltf *g);      /* gltf/skin.c */
+bool gn_gltf_far(struct gn_gltf *g);        /* gltf/far.c */
 bool gn_gltf_geometries(struct gn_gltf *g); /* geometry.c */
 bool gn_gltf_items(struct gn_gltf *g);      /* gltf/item.c */
 bool gn_gltf_materials(struct gn_gltf *g);  /* gltf/material.c */
@@ -389,8 +391,6 @@ void gn_material_init(struct gn_material *material);
 /* pose_anim.c: the value of a channel at a time, its components. */
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out);
 
-/* pose.c */
-void gn_node_local(const struct gn_node *node, mat4 parent_from_node);
 /* deform.c: of the upper 3x3; returns the determinant */
 double gn_cofactor(mat4 m, mat3 out);
 

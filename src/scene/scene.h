@@ -114,6 +114,7 @@ struct gn_geometry {
     bool flat;           /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
     bool closed; /* the boundary of solid bodies, front faces outward; false when in doubt */
     vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
+    const double *origin; /* mesh space: taken off its positions, as they lay far off; NULL: 0 */
     struct gn_joint_box *joint_boxes; /* by ascending joint, if it has joints */
     uint32_t joint_box_count;
     struct gn_targets *targets; /* or NULL */
@@ -154,6 +155,7 @@ struct gn_node {
     mat4 matrix;
     vec3 translation, scale;
     versor rotation;
+    vec3 rest; /* what floats lack of the translation, or of that of the matrix */
 };
 
 /* One per node that has a light, in the order of a depth-first walk of the scene. */
@@ -268,6 +270,13 @@ struct gn_scene_memory {
     void *arena;  /* private */
 };
 
+/* World space has its origin where the file has this point: 0, unless all is far from the file's
+ * own. What a user names or reads in the file's coordinates is converted where it comes in. */
+struct gn_scene_place {
+    double origin[3];
+    bool exact; /* something lies, or is moved, so far off that poses are made in doubles */
+};
+
 struct gn_scene {
     const char *name;
     const char *missing; /* what the file asks for and is shown without: "skins, sheen", or "" */
@@ -291,6 +300,7 @@ struct gn_scene {
     struct gn_extent *extents; /* over the time of all clips that a pose plays: at its `clips` minus
                                   GN_POSE_NONE */
 
+    struct gn_scene_place place;
     struct gn_box
         box; /* of everything visible, world space, nodes as the file places them; never empty */
     uint64_t triangle_count; /* of all items that are shown without a variant */
@@ -305,7 +315,7 @@ struct gn_scene_floor {
         GN_FLOOR_AUTO, /* under the model, where the scene has no floor of its own */
         GN_FLOOR_HEIGHT,
     } kind;
-    float height_m; /* HEIGHT: y, world space */
+    double height_m; /* HEIGHT: y, as the file has it */
 };
 
 /* Side of the square that its occlusion texture covers, in halves of the floor's side. */

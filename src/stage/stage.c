@@ -55,7 +55,7 @@ bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits 
         (struct gn_scene_limits){.floor = {.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
                                                    : isinf(floor_m) ? GN_FLOOR_NONE
                                                                     : GN_FLOOR_HEIGHT,
-                                           .height_m = isfinite(floor_m) ? (float)floor_m : 0.0f}};
+                                           .height_m = isfinite(floor_m) ? floor_m : 0.0}};
     for (int i = 0; i < settings->render.limits.count; i++)
         if (!gn_scene_limits_set(limits, settings->render.limits.items[i].name,
                                  (uint64_t)settings->render.limits.items[i].value, err))
@@ -210,13 +210,14 @@ static bool casts_rays(const struct gn_frame_shadow_opts *shadow) {
 }
 
 /* [camera]: what is not given stays as the camera has it. */
-static void set_framing(struct gn_framing_opts *framing, const struct gn_camera_settings *s) {
+static void set_framing(struct gn_framing_opts *framing, const struct gn_camera_settings *s,
+                        const double origin[3]) {
     const double values[] = {s->theta_deg, s->phi_deg, s->distance_m, s->target_m[0], s->fov_deg};
     for (int i = 0; i < 5; i++) framing->given |= isnan(values[i]) ? 0 : 1u << i;
     framing->theta_rad = glm_rad((float)s->theta_deg);
     framing->phi_rad = glm_rad((float)s->phi_deg);
     framing->distance_m = (float)s->distance_m;
-    for (int k = 0; k < 3; k++) framing->target_ws[k] = (float)s->target_m[k];
+    for (int k = 0; k < 3; k++) framing->target_ws[k] = (float)(s->target_m[k] - origin[k]);
     framing->yfov_rad = glm_rad((float)s->fov_deg);
     framing->phi_min_rad = glm_rad((float)s->phi_min_deg);
     framing->phi_max_rad = glm_rad((float)s->phi_max_deg);
@@ -239,7 +240,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     struct gn_scene_limits limits;
     if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
-    set_framing(&look->frame_opts.view.framing, &o->camera);
+    set_framing(&look->frame_opts.view.framing, &o->camera, scene->place.origin);
     if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
         !do_without(o, offsetof(struct gn_settings, render.environment), warnings, err))
         return false;

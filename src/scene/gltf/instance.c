@@ -1,4 +1,5 @@
 /* EXT_mesh_gpu_instancing: translations, rotations and scales of the copies of a node's mesh. */
+#include "scene/exact.h"
 #include "scene/private.h"
 
 #include <inttypes.h>

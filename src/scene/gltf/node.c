@@ -93,6 +93,17 @@ static void push_children(struct tree *tree, int32_t node) {
 
 /* ---- the nodes of the scene ---- */
 
+/* What the floats of a translation lack of the numbers in the file. */
+static void read_rest(const struct gn_at *at, struct gn_node *node) {
+    const struct gn_at array = gn_at_any(at, node->has_matrix ? "matrix" : "translation");
+    const float *whole = node->has_matrix ? node->matrix[3] : node->translation;
+    for (size_t k = 0; k < 3; k++) {
+        double value = 0;
+        const json_t *number = json_array_get(array.json, (node->has_matrix ? 12 : 0) + k);
+        if (gn_json_number(number, &value)) node->rest[k] = (float)(value - (double)whole[k]);
+    }
+}
+
 static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_node *node) {
     glm_mat4_identity(node->matrix);
     glm_vec3_one(node->scale);
@@ -102,6 +113,7 @@ static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_
     if (node->has_matrix) memcpy(node->matrix, m, sizeof m);
     gn_at_floats(g, at, "translation", 3, node->translation);
     gn_at_floats(g, at, "scale", 3, node->scale);
+    read_rest(at, node);
     if (!gn_at_floats(g, at, "rotation", 4, node->rotation)) return;
     float length = glm_vec4_norm(node->rotation);
     if (length > 1e-6f && length < 1e18f) {
