@@ -125,6 +125,10 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     if (s->name && s->name[0]) print_line(to, "%-11s %s", "name", s->name);
     print_line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
                (double)size[2]);
+    const double *origin = s->place.origin;
+    if (origin[0] != 0 || origin[1] != 0 || origin[2] != 0)
+        print_line(to, "%-11s far from the file's: drawn around %.10g %.10g %.10g", "place",
+                   origin[0], origin[1], origin[2]);
     print_line(to, "%-11s %u", "nodes", s->node_count);
     print_line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count,
                s->batch_count, s->instance_count);
