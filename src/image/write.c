@@ -89,7 +89,7 @@ bool gn_picture_encode_png_rgba(const uint8_t *rgba, int width_px, int height_px
     bool opaque = true;
     for (size_t i = 0; i < count; i++) opaque &= rgba[4 * i + 3] == 255;
     const size_t channels = opaque ? 3 : 4;
-    uint8_t *rows = malloc(count * channels);
+    uint8_t *rows = count > 0 ? malloc(count * channels) : NULL;
     *out = (struct gn_bytes){0};
     if (!rows) return gn_fail(err, "PNG: out of memory");
     for (size_t i = 0; i < count; i++) memcpy(rows + channels * i, rgba + 4 * i, channels);

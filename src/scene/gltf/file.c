@@ -101,8 +101,8 @@ static const struct other *find_other(const struct gn_gltf *g, const uint8_t *da
     const char *dot = strrchr(g->path, '.');
     for (size_t i = 0; i < sizeof OTHERS / sizeof OTHERS[0]; i++) {
         const struct other *o = &OTHERS[i];
-        const size_t length = o->magic ? strlen(o->magic) : SIZE_MAX;
-        if (size >= length && memcmp(data, o->magic, length) == 0) return o;
+        const size_t length = o->magic ? strlen(o->magic) : 0;
+        if (o->magic && size >= length && memcmp(data, o->magic, length) == 0) return o;
         if (dot && strcasecmp(dot, o->suffix) == 0) return o;
     }
     return NULL;
