@@ -122,12 +122,13 @@ void gn_show_enter(struct gn_show *s) {
 void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_frame_opts *f = &s->stage.frame_opts;
+    struct gn_pose *pose = &s->stage.pose;
     const bool plays =
         view->clip >= 0 && (uint32_t)view->clip < s->stage.scene->animation.clip_count;
-    const int clips = plays ? view->clip : look->clips;
-    if (clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, clips);
-    s->stage.plays_once = plays;
-    s->stage.once_ns = view->clip_ns;
+    const int over = plays ? view->clip : -1;
+    if (look->clips != pose->clips || over != pose->over)
+        gn_pose_choose_over(pose, look->clips, over);
+    pose->over_ns = view->clip_ns;
     const uint32_t camera =
         ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;
     if ((uint32_t)f->view.camera != camera) f->view.orbit = (struct gn_orbit){0};

@@ -90,6 +90,8 @@ static void follow(struct gn_show *s) {
     now.height_px = f->height_px;
     now.mode = s->kiosk.shown.mode;
     now.clips = s->stage.pose.clips;
+    now.over = s->stage.pose.over;
+    now.over_ns = s->stage.pose.over_ns;
     now.variant = s->stage.pose.variant;
     if (memcmp(&now, &t->of, sizeof now) == 0) return;
     gn_truth_drop(s);

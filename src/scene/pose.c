@@ -75,6 +75,7 @@ static void pose_node(struct gn_pose *pose, uint32_t i) {
 /* ---- clips ---- */
 
 static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
+    if (pose->over == (int)clip) return true;
     if (pose->clips == GN_POSE_DEFAULT) return pose->scene->animation.clips[clip].on_by_default;
     return pose->clips == (int)clip;
 }
@@ -132,10 +133,14 @@ void gn_pose_choose_variant(struct gn_pose *pose, int variant) {
     measure_moving(pose);
 }
 
-void gn_pose_choose(struct gn_pose *pose, int clips) {
+void gn_pose_choose(struct gn_pose *pose, int clips) { gn_pose_choose_over(pose, clips, -1); }
+
+void gn_pose_choose_over(struct gn_pose *pose, int clips, int over) {
     struct memory *memory = pose->memory;
     const struct gn_scene *scene = pose->scene;
     pose->clips = clips;
+    pose->over = over;
+    pose->over_ns = 0;
     pose->animated = false;
     memory->node_count = memory->item_count = 0;
     if (scene->node_count > 0) {
@@ -177,29 +182,34 @@ void gn_pose_choose(struct gn_pose *pose, int clips) {
     gn_pose_step(pose, 0);
 }
 
+static void step_clip(struct gn_pose *pose, const struct gn_clip *clip, int64_t time_ns) {
+    struct memory *memory = pose->memory;
+    /* the time within the clip; in integers until it is small */
+    int64_t local_ns = clip->duration_ns > 0 ? time_ns % clip->duration_ns : 0;
+    if (local_ns < 0) local_ns += clip->duration_ns;
+    double time_s = (double)local_ns * 1e-9;
+    for (uint32_t i = 0; i < clip->channel_count; i++) {
+        const struct gn_channel *channel =
+            &pose->scene->animation.channels[clip->first_channel + i];
+        struct gn_node *node = &memory->local[channel->node];
+        float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
+                                 [GN_ANIM_ROTATION] = node->rotation,
+                                 [GN_ANIM_SCALE] = node->scale,
+                                 [GN_ANIM_WEIGHTS] =
+                                     gn_deformer_weights(&memory->deformer, pose, channel)};
+        gn_channel_sample(channel, time_s, target[channel->path]);
+    }
+}
+
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     struct memory *memory = pose->memory;
     pose->time_ns = time_ns;
     if (!pose->animated) return;
     const struct gn_scene_animation *animation = &pose->scene->animation;
-    for (uint32_t c = 0; c < animation->clip_count; c++) {
-        const struct gn_clip *clip = &animation->clips[c];
-        if (!clip_on(pose, c)) continue;
-        /* the time within the clip; in integers until it is small */
-        int64_t local_ns = clip->duration_ns > 0 ? time_ns % clip->duration_ns : 0;
-        if (local_ns < 0) local_ns += clip->duration_ns;
-        double time_s = (double)local_ns * 1e-9;
-        for (uint32_t i = 0; i < clip->channel_count; i++) {
-            const struct gn_channel *channel = &animation->channels[clip->first_channel + i];
-            struct gn_node *node = &memory->local[channel->node];
-            float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
-                                     [GN_ANIM_ROTATION] = node->rotation,
-                                     [GN_ANIM_SCALE] = node->scale,
-                                     [GN_ANIM_WEIGHTS] =
-                                         gn_deformer_weights(&memory->deformer, pose, channel)};
-            gn_channel_sample(channel, time_s, target[channel->path]);
-        }
-    }
+    for (uint32_t c = 0; c < animation->clip_count; c++)
+        if (clip_on(pose, c) && pose->over != (int)c)
+            step_clip(pose, &animation->clips[c], time_ns);
+    if (pose->over >= 0) step_clip(pose, &animation->clips[pose->over], pose->over_ns);
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     gn_deformer_step(&memory->deformer, pose, true);
     for (uint32_t i = 0; i < memory->item_count; i++) pose_item(pose, memory->items[i]);

@@ -23,7 +23,9 @@ struct gn_pose_item {
 struct gn_exact;
 struct gn_pose {
     const struct gn_scene *scene;
-    int clips;   /* enum gn_pose_clips or a number */
+    int clips; /* enum gn_pose_clips or a number */
+    int over;  /* number of a clip that plays over those, at over_ns; -1: none */
+    int64_t over_ns;
     int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
     int64_t time_ns;
     mat4 *world_from_node;      /* scene->node_count */
@@ -42,8 +44,10 @@ struct gn_pose {
 
 /* Makes a pose at time 0. The scene must outlive it. */
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips);
-/* Changes the clips, as if initialised again; allocates nothing. */
+/* Changes the clips, as if initialised again; allocates nothing. over: a clip that plays over them:
+ * what both move follows it, at a time of its own; -1: none. */
 void gn_pose_choose(struct gn_pose *pose, int clips);
+void gn_pose_choose_over(struct gn_pose *pose, int clips, int over);
 /* Shows the items of that variant of materials, at the same time; a new pose has none. Allocates
  * nothing. */
 void gn_pose_choose_variant(struct gn_pose *pose, int variant);

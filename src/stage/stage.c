@@ -51,11 +51,10 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
 bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
                      struct gn_err *err) {
     const double floor_m = settings->scene.floor_m;
-    *limits =
-        (struct gn_scene_limits){.floor = {.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
-                                                   : isinf(floor_m) ? GN_FLOOR_NONE
-                                                                    : GN_FLOOR_HEIGHT,
-                                           .height_m = isfinite(floor_m) ? floor_m : 0.0}};
+    *limits = (struct gn_scene_limits){.floor = {.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
+                                                         : isinf(floor_m) ? GN_FLOOR_NONE
+                                                                          : GN_FLOOR_HEIGHT,
+                                                 .height_m = isfinite(floor_m) ? floor_m : 0.0}};
     for (int i = 0; i < settings->render.limits.count; i++)
         if (!gn_scene_limits_set(limits, settings->render.limits.items[i].name,
                                  (uint64_t)settings->render.limits.items[i].value, err))
@@ -345,7 +344,7 @@ uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t
 }
 
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
-    gn_pose_step(&stage->pose, stage->plays_once ? stage->once_ns : time_ns);
+    gn_pose_step(&stage->pose, time_ns);
     double turned_deg =
         fmod(stage->settings->scene.turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
     stage->frame_opts.view.turntable_rad = glm_rad((float)turned_deg);

@@ -31,8 +31,6 @@ struct gn_stage {
         float *visibility; /* of the last picture's first light that is drawn with it: a value for
                               each pixel, row 0 on top; or NULL */
     } truth;
-    bool plays_once; /* the pose's clip is at once_ns, whatever the scene's time is */
-    int64_t once_ns;
     bool is_behind; /* as in gn_plan, of the last plan: it wants another frame */
 };
 

@@ -140,6 +140,31 @@ static void test_clips(void **state) {
     assert_int_equal(err.status, GN_EXIT_USAGE);
 }
 
+/* A clip over others: its own time, what both move follows it, and the others hold theirs. */
+static void test_a_clip_over_others(void **state) {
+    (void)state;
+    animate("translation", MOVE, "LINEAR");
+    animate("translation", SPLINE, "CUBICSPLINE");
+    animate("scale", SPLINE, "CUBICSPLINE");
+    load(2);
+    gn_pose_step(&pose, 3 * GN_NS_PER_S / 2);
+    mat4 before;
+    glm_mat4_copy(pose.world_from_node[0], before);
+    gn_pose_choose_over(&pose, 2, 0);
+    pose.over_ns = GN_NS_PER_S / 2;
+    gn_pose_step(&pose, 3 * GN_NS_PER_S / 2);
+    assert_true(pose.world_from_node[0][3][0] == 2); /* half a second of clip 0 */
+    for (int k = 0; k < 3; k++)
+        assert_true(pose.world_from_node[0][k][k] == before[k][k]); /* clip 2 at 1.5 s */
+    gn_pose_choose_over(&pose, 1, 0);                               /* both move the same */
+    pose.over_ns = GN_NS_PER_S / 2;
+    gn_pose_step(&pose, 3 * GN_NS_PER_S / 2);
+    assert_true(pose.world_from_node[0][3][0] == 2);
+    gn_pose_choose(&pose, 2);
+    gn_pose_step(&pose, 3 * GN_NS_PER_S / 2);
+    assert_memory_equal(before, pose.world_from_node[0], sizeof before);
+}
+
 static void test_items_follow_and_nothing_is_allocated(void **state) {
     (void)state;
     animate("translation", MOVE, "LINEAR");
@@ -337,6 +362,7 @@ int main(void) {
         TEST(test_rotation_takes_the_short_way),
         TEST(test_time_is_exact_after_years),
         TEST(test_clips),
+        TEST(test_a_clip_over_others),
         TEST(test_items_follow_and_nothing_is_allocated),
         TEST(test_mirrored_and_invisible),
         TEST(test_unusable_channels_are_left_out),
