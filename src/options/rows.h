@@ -12,6 +12,10 @@ GN_OPTION(.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value 
           .help = "play only this clip (default: all that do not collide)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
 GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
           .help = "do not animate", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
+GN_OPTION(.name = "animation-loop", .section = "scene", .kind = GN_KIND_CHOICE, .choices = clip_turns, .value = "HOW", .fallback = "loop",
+          .help = "what clips do at their end: begin again, stay there, or go back", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_turns))
+GN_OPTION(.name = "animation-speed", .section = "scene", .kind = GN_KIND_NUMBER, .min = 0, .max = 100, .value = "F", .fallback = "1",
+          .help = "factor on the speed of clips", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_speed))
 GN_OPTION(.name = "variant", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|auto",
           .help = "variant of the scene's materials (KHR_materials_variants); auto: as the file has them without one", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.variant))
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",

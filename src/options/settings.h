@@ -81,6 +81,8 @@ struct gn_scene_settings {
     const char *camera, *animation; /* NAME or number; NULL: the first; animation may be "none" */
     const char *variant;            /* NAME or number; "auto" or NULL: none */
     bool no_animation;
+    int animation_turns; /* enum gn_pose_turns */
+    double animation_speed;
     int64_t time_ns;
     double turntable_deg_s;
     double floor_m; /* y of the shadow catcher; NAN: automatic, INFINITY: none */

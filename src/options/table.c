@@ -73,6 +73,8 @@ static const struct gn_choice cast_faces[] = {{"auto", 0},
                                               {"back", 1 + GN_CAST_BACK},
                                               {"middle", 1 + GN_CAST_MIDDLE},
                                               {0}};
+static const struct gn_choice clip_turns[] = {
+    {"loop", GN_POSE_LOOP}, {"once", GN_POSE_ONCE}, {"ping-pong", GN_POSE_PING_PONG}, {0}};
 static const struct gn_choice map_ends[] = {{"far", 0}, {"near", 1}, {0}};
 static const struct gn_choice slide_aspects[] = {{"square", 0}, {"picture", 1}, {0}};
 static const struct gn_choice light_colors[] = {{"auto", -1}, {0}};

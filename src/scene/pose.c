@@ -182,11 +182,24 @@ void gn_pose_choose_over(struct gn_pose *pose, int clips, int over) {
     gn_pose_step(pose, 0);
 }
 
-static void step_clip(struct gn_pose *pose, const struct gn_clip *clip, int64_t time_ns) {
+/* In integers until it is small: exact after years. Other speeds than 1 are so to 2^-53. */
+int64_t gn_pose_clip_ns(const struct gn_pose_run *run, int64_t length_ns, int64_t time_ns) {
+    if (length_ns <= 0) return 0;
+    if (run->speed_less_1 != 0) {
+        const double there = (double)time_ns * (1 + run->speed_less_1);
+        time_ns = fabs(there) < 9e18 ? (int64_t)there : 0;
+    }
+    if (run->turns == GN_POSE_ONCE)
+        return time_ns < 0 ? 0 : time_ns < length_ns ? time_ns : length_ns;
+    const int64_t period_ns =
+        run->turns == GN_POSE_PING_PONG && length_ns < INT64_MAX / 2 ? 2 * length_ns : length_ns;
+    int64_t local_ns = time_ns % period_ns;
+    if (local_ns < 0) local_ns += period_ns;
+    return local_ns > length_ns ? period_ns - local_ns : local_ns;
+}
+
+static void step_clip(struct gn_pose *pose, const struct gn_clip *clip, int64_t local_ns) {
     struct memory *memory = pose->memory;
-    /* the time within the clip; in integers until it is small */
-    int64_t local_ns = clip->duration_ns > 0 ? time_ns % clip->duration_ns : 0;
-    if (local_ns < 0) local_ns += clip->duration_ns;
     double time_s = (double)local_ns * 1e-9;
     for (uint32_t i = 0; i < clip->channel_count; i++) {
         const struct gn_channel *channel =
@@ -208,8 +221,12 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     const struct gn_scene_animation *animation = &pose->scene->animation;
     for (uint32_t c = 0; c < animation->clip_count; c++)
         if (clip_on(pose, c) && pose->over != (int)c)
-            step_clip(pose, &animation->clips[c], time_ns);
-    if (pose->over >= 0) step_clip(pose, &animation->clips[pose->over], pose->over_ns);
+            step_clip(pose, &animation->clips[c],
+                      gn_pose_clip_ns(&pose->run, animation->clips[c].duration_ns, time_ns));
+    static const struct gn_pose_run loop = {0};
+    if (pose->over >= 0)
+        step_clip(pose, &animation->clips[pose->over],
+                  gn_pose_clip_ns(&loop, animation->clips[pose->over].duration_ns, pose->over_ns));
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     gn_deformer_step(&memory->deformer, pose, true);
     for (uint32_t i = 0; i < memory->item_count; i++) pose_item(pose, memory->items[i]);

@@ -20,12 +20,23 @@ struct gn_pose_item {
     uint64_t hash; /* of all that its vertices depend on */
 };
 
+/* How clips go with the scene's time, but for one that plays over others. Zeroed: each in a loop,
+ * at the speed that it has. */
+struct gn_pose_run {
+    enum gn_pose_turns { GN_POSE_LOOP, GN_POSE_ONCE, GN_POSE_PING_PONG } turns;
+    double speed_less_1; /* 0: 1; -1: they stand */
+};
+/* The time within a clip of that length, 0 to its end, at a time of the scene, which may be
+ * negative. */
+int64_t gn_pose_clip_ns(const struct gn_pose_run *run, int64_t length_ns, int64_t time_ns);
+
 struct gn_exact;
 struct gn_pose {
     const struct gn_scene *scene;
     int clips; /* enum gn_pose_clips or a number */
     int over;  /* number of a clip that plays over those, at over_ns; -1: none */
     int64_t over_ns;
+    struct gn_pose_run run;
     int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
     int64_t time_ns;
     mat4 *world_from_node;      /* scene->node_count */

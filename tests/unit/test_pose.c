@@ -165,6 +165,44 @@ static void test_a_clip_over_others(void **state) {
     assert_memory_equal(before, pose.world_from_node[0], sizeof before);
 }
 
+static void test_turns_and_speed_of_clips(void **state) {
+    (void)state;
+    const int64_t S = GN_NS_PER_S, years = 10 * 365 * INT64_C(86400) * S;
+    const struct {
+        struct gn_pose_run run;
+        int64_t length_ns, time_ns, expected_ns;
+    } cases[] = {
+        {{GN_POSE_LOOP, 0}, 2 * S, 5 * S, S},
+        {{GN_POSE_LOOP, 0}, 2 * S, 2 * S, 0},
+        {{GN_POSE_LOOP, 0}, 2 * S, -S / 2, 3 * S / 2},
+        {{GN_POSE_LOOP, 0}, 7 * S, years + 1, years % (7 * S) + 1},
+        {{GN_POSE_LOOP, 0}, 0, 5 * S, 0},
+        {{GN_POSE_LOOP, .5}, 2 * S, 3 * S, S / 2},
+        {{GN_POSE_LOOP, -1}, 2 * S, 3 * S, 0},
+        {{GN_POSE_LOOP, 99}, 2 * S, INT64_MAX, 0},
+        {{GN_POSE_ONCE, 0}, 2 * S, S, S},
+        {{GN_POSE_ONCE, 0}, 2 * S, 5 * S, 2 * S},
+        {{GN_POSE_ONCE, 0}, 2 * S, -S, 0},
+        {{GN_POSE_ONCE, 1}, 2 * S, S / 2, S},
+        {{GN_POSE_PING_PONG, 0}, 2 * S, S, S},
+        {{GN_POSE_PING_PONG, 0}, 2 * S, 2 * S, 2 * S},
+        {{GN_POSE_PING_PONG, 0}, 2 * S, 3 * S, S},
+        {{GN_POSE_PING_PONG, 0}, 2 * S, 4 * S, 0},
+        {{GN_POSE_PING_PONG, 0}, 2 * S, -S, S},
+        {{GN_POSE_PING_PONG, 0}, 2 * S, 9 * S, S},
+        {{GN_POSE_PING_PONG, 0}, INT64_MAX, 9 * S, 9 * S},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        if (gn_pose_clip_ns(&cases[i].run, cases[i].length_ns, cases[i].time_ns) !=
+            cases[i].expected_ns)
+            fail_msg("case %zu", i);
+    animate("translation", MOVE, "LINEAR");
+    load(0);
+    pose.run = (struct gn_pose_run){GN_POSE_PING_PONG, 0};
+    gn_pose_step(&pose, 7 * S / 2); /* as at half a second */
+    assert_true(pose.world_from_node[0][3][0] == 2);
+}
+
 static void test_items_follow_and_nothing_is_allocated(void **state) {
     (void)state;
     animate("translation", MOVE, "LINEAR");
@@ -363,6 +401,7 @@ int main(void) {
         TEST(test_time_is_exact_after_years),
         TEST(test_clips),
         TEST(test_a_clip_over_others),
+        TEST(test_turns_and_speed_of_clips),
         TEST(test_items_follow_and_nothing_is_allocated),
         TEST(test_mirrored_and_invisible),
         TEST(test_unusable_channels_are_left_out),
