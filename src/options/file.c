@@ -116,7 +116,7 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
     char keys[400] = "", key[64], near[64];
     struct gn_text_guess guess = {0};
     size_t used = 0;
-    for (int i = 0; i < GN_OPTION_COUNT && used < sizeof keys; i++) {
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];
         gn_option_key(row, key, sizeof key);
         if (gn_option_find_key(section, key) != row) { /* its whole name, if that may be there */
@@ -129,7 +129,9 @@ static bool fail_key(const struct gn_ini_line *line, const char *section, struct
             snprintf(near, sizeof near, "%s", key);
             guess.name = near;
         }
-        used += (size_t)snprintf(keys + used, sizeof keys - used, "%s %s", used ? "," : "", key);
+        if (used < sizeof keys) /* the first ones; the nearest is one of all */
+            used +=
+                (size_t)snprintf(keys + used, sizeof keys - used, "%s %s", used ? "," : "", key);
     }
     if (!guess.name)
         return gn_fail_usage(err, "%s: unknown key \"%s\"; keys of [%s]:%s", line->where, line->key,
