@@ -14,7 +14,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     if (view.dark && s->drawn.dark) return false; /* black stays black */
-    const bool moves = s->counts.most_frames < UINT64_MAX ||
+    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.fade < 1 ||
                        (!view.stands && (view.clip >= 0 || s->stage.pose.animated ||
                                          s->stage.settings->scene.turntable_deg_s != 0.0));
     const struct gn_kiosk_view *drawn = &s->drawn;
@@ -53,7 +53,7 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     if (!s->ahead.alone) gn_show_work(s);
     const unsigned long allocations = gn_alloc_count();
     const uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
-    gn_show_take_view(s, &view);
+    gn_show_take_view(s, &view, seen_ns);
     gn_show_write_captions(s, &view, seen_ns);
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
     if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */

@@ -106,6 +106,26 @@ bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
     return true;
 }
 
+/* From what is shown to what these clips make of it, in [kiosk] clip_fade. */
+static void choose_clips(struct gn_show *s, int clips, int over, int64_t seen_ns) {
+    struct gn_pose *pose = &s->stage.pose;
+    const int64_t fade_ns = s->stage.settings->kiosk.clip_fade_ns;
+    if (clips != pose->clips || over != pose->over) {
+        s->clips_begun_ns = seen_ns;
+        if (fade_ns > 0 && s->counts.frames > 0)
+            gn_pose_choose_fading(pose, clips, over);
+        else
+            gn_pose_choose_over(pose, clips, over);
+    } else if (pose->fade < 1) {
+        const double share =
+            fade_ns > 0 ? (double)(seen_ns - s->clips_begun_ns) / (double)fade_ns : 1;
+        if (share >= 1)
+            gn_pose_choose_over(pose, clips, over);
+        else
+            pose->fade = share > 0 ? (float)share : 0;
+    }
+}
+
 void gn_show_enter(struct gn_show *s) {
     const struct gn_stage_look *look = &s->looks.of[s->kiosk.shown.mode];
     const struct gn_frame_opts before = s->stage.frame_opts;
@@ -113,21 +133,20 @@ void gn_show_enter(struct gn_show *s) {
     s->stage.frame_opts = look->frame_opts;
     if (look->frame_opts.view.camera == before.view.camera)
         s->stage.frame_opts.view.orbit = before.view.orbit;
-    if (look->clips != s->stage.pose.clips) gn_pose_choose(&s->stage.pose, look->clips);
+    choose_clips(s, look->clips, -1, gn_loop_now_ns(s->loop));
     gn_pose_choose_variant(&s->stage.pose, look->variant);
     s->ahead.keeps = s->ahead.idle = false;
     s->changed = true;
 }
 
-void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view) {
+void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view, int64_t seen_ns) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_frame_opts *f = &s->stage.frame_opts;
     struct gn_pose *pose = &s->stage.pose;
     const bool plays =
         view->clip >= 0 && (uint32_t)view->clip < s->stage.scene->animation.clip_count;
     const int over = plays ? view->clip : -1;
-    if (look->clips != pose->clips || over != pose->over)
-        gn_pose_choose_over(pose, look->clips, over);
+    choose_clips(s, look->clips, over, seen_ns);
     pose->over_ns = view->clip_ns;
     const uint32_t camera =
         ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;

@@ -159,6 +159,7 @@ struct gn_show {
     struct gn_show_text text;
     struct gn_show_ahead ahead;
     struct gn_show_fade fade;
+    int64_t clips_begun_ns; /* when other clips were chosen: stage.pose.fade */
     struct gn_show_counts counts;
     struct gn_show_stats stats;
     struct gn_shader_files shaders;
@@ -340,6 +341,6 @@ bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
 /* Puts the settings of the mode that is shown on the stage. */
 void gn_show_enter(struct gn_show *show);
 /* Sets the camera of a view; called for each frame. */
-void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view);
+void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view, int64_t seen_ns);
 
 #endif

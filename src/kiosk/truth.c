@@ -92,6 +92,7 @@ static void follow(struct gn_show *s) {
     now.clips = s->stage.pose.clips;
     now.over = s->stage.pose.over;
     now.over_ns = s->stage.pose.over_ns;
+    now.fade = s->stage.pose.fade;
     now.variant = s->stage.pose.variant;
     if (memcmp(&now, &t->of, sizeof now) == 0) return;
     gn_truth_drop(s);

@@ -22,6 +22,7 @@ struct gn_show_truth { /* zeroed: off */
         int64_t time_ns, over_ns;
         uint32_t width_px, height_px;
         int mode, clips, over, variant;
+        float fade;
     } of;               /* what is cast */
     int64_t changed_ns; /* since then it is the same */
     int percent;        /* that the caption tells */

@@ -162,6 +162,8 @@ GN_OPTION(.name = "while-playing", .section = "kiosk", .kind = GN_KIND_CHOICE, .
           .help = "buttons while play CLIP plays: act as ever (play again begins anew), or ignore presses", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.plays_alone))
 GN_OPTION(.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "duration of the fade between modes", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.fade_ns))
+GN_OPTION(.name = "clip-fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = ".3",
+          .help = "how long the scene takes from the pose of some clips to that of others", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.clip_fade_ns))
 /* what a kiosk lets itself be told, and says */
 GN_OPTION(.name = "socket", .section = "kiosk", .kind = GN_KIND_PATH, .value = "PATH",
           .help = "the socket that ctl talks to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.socket))

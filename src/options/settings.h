@@ -147,7 +147,7 @@ struct gn_display_settings {
 struct gn_kiosk_settings {
     int idle;        /* enum gn_idle */
     int plays_alone; /* buttons do nothing while a clip plays once */
-    int64_t idle_after_ns, fade_ns;
+    int64_t idle_after_ns, fade_ns, clip_fade_ns;
     const char *socket;      /* NULL: see gn_listen_default() */
     const char *screenshots; /* folder; NULL: none */
     bool watch;

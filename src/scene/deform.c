@@ -71,9 +71,14 @@ void gn_deformer_finish(struct gn_deformer *d) {
     free(d->morph_hashes);
 }
 
-void gn_deformer_reset(struct gn_deformer *d, const struct gn_pose *pose) {
+void gn_deformer_rest(struct gn_deformer *d, const struct gn_pose *pose) {
     const struct gn_scene_deformation *s = &pose->scene->deformation;
     for (uint32_t i = 0; i < s->weight_count; i++) d->weights[i] = s->weights[i];
+}
+
+void gn_deformer_reset(struct gn_deformer *d, const struct gn_pose *pose) {
+    const struct gn_scene_deformation *s = &pose->scene->deformation;
+    gn_deformer_rest(d, pose);
     for (uint32_t i = 0; i < s->skin_count; i++) d->skin_moves[i] = false;
     for (uint32_t i = 0; i < s->morph_count; i++) d->morph_moves[i] = false;
 }

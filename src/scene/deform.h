@@ -27,7 +27,9 @@ struct gn_deformer {
 
 void gn_deformer_init(struct gn_deformer *deformer, struct gn_pose *pose);
 void gn_deformer_finish(struct gn_deformer *deformer);
-/* Forgets what moves, and takes the weights of the file. */
+/* Takes the weights of the file. */
+void gn_deformer_rest(struct gn_deformer *deformer, const struct gn_pose *pose);
+/* The same, and forgets what moves. */
 void gn_deformer_reset(struct gn_deformer *deformer, const struct gn_pose *pose);
 /* When it is known which nodes move: which skins do. */
 void gn_deformer_choose(struct gn_deformer *deformer, const struct gn_pose *pose);

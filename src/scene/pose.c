@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "scene/deform.h"
 #include "scene/exact.h"
+#include "scene/fade.h"
 #include "scene/private.h"
 
 struct memory {              /* pose->memory */
@@ -16,6 +17,7 @@ struct memory {              /* pose->memory */
     uint32_t node_count, item_count;
     struct gn_box still_ws; /* of the visible items that are not animated */
     struct gn_deformer deformer;
+    struct gn_fade fade;
 };
 
 #define LIMIT GN_POSE_LIMIT
@@ -59,7 +61,13 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
 }
 
 static void pose_node(struct gn_pose *pose, uint32_t i) {
-    const struct gn_node *node = &((struct memory *)pose->memory)->local[i];
+    const struct memory *memory = pose->memory;
+    const struct gn_node *node = &memory->local[i];
+    struct gn_node mixed;
+    if (pose->fade < 1 && pose->node_moves[i]) {
+        mixed = gn_fade_node(&memory->fade, pose, node, i);
+        node = &mixed;
+    }
     if (pose->exact) {
         gn_exact_step(pose, node, i);
         return;
@@ -93,7 +101,7 @@ static void mark_channel(struct gn_pose *pose, const struct gn_channel *channel)
 }
 
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
-    *pose = (struct gn_pose){.scene = scene, .clips = clips, .variant = GN_POSE_DEFAULT};
+    *pose = (struct gn_pose){.scene = scene, .clips = clips, .variant = GN_POSE_DEFAULT, .fade = 1};
     struct memory *memory = pose->memory = gn_xalloc(1, sizeof *memory);
     pose->world_from_node = gn_xalloc(scene->node_count, sizeof *pose->world_from_node);
     pose->node_moves = gn_xalloc(scene->node_count, sizeof *pose->node_moves);
@@ -103,6 +111,7 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
     memory->nodes = gn_xalloc(scene->node_count, sizeof *memory->nodes);
     memory->items = gn_xalloc(scene->item_count, sizeof *memory->items);
     gn_deformer_init(&memory->deformer, pose);
+    gn_fade_init(&memory->fade, scene);
     gn_pose_choose(pose, clips);
 }
 
@@ -133,11 +142,11 @@ void gn_pose_choose_variant(struct gn_pose *pose, int variant) {
     measure_moving(pose);
 }
 
-void gn_pose_choose(struct gn_pose *pose, int clips) { gn_pose_choose_over(pose, clips, -1); }
-
-void gn_pose_choose_over(struct gn_pose *pose, int clips, int over) {
+static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
     struct memory *memory = pose->memory;
     const struct gn_scene *scene = pose->scene;
+    if (fades) gn_fade_keep(&memory->fade, pose, memory->local, &memory->deformer);
+    pose->fade = fades ? 0 : 1;
     pose->clips = clips;
     pose->over = over;
     pose->over_ns = 0;
@@ -157,6 +166,7 @@ void gn_pose_choose_over(struct gn_pose *pose, int clips, int over) {
         for (uint32_t i = 0; i < clip->channel_count; i++)
             mark_channel(pose, &scene->animation.channels[clip->first_channel + i]);
     }
+    if (fades) gn_fade_mark(&memory->fade, pose, &memory->deformer);
     for (uint32_t i = 0; i < scene->node_count; i++) {
         int32_t parent = scene->nodes[i].parent;
         if (parent >= 0 && pose->node_moves[parent]) pose->node_moves[i] = true;
@@ -180,6 +190,16 @@ void gn_pose_choose_over(struct gn_pose *pose, int clips, int over) {
     pose->box_ws = memory->still_ws;
     if (pose->aimed) gn_pose_aim(pose, pose->aim_ws);
     gn_pose_step(pose, 0);
+}
+
+void gn_pose_choose(struct gn_pose *pose, int clips) { choose(pose, clips, -1, false); }
+
+void gn_pose_choose_over(struct gn_pose *pose, int clips, int over) {
+    choose(pose, clips, over, false);
+}
+
+void gn_pose_choose_fading(struct gn_pose *pose, int clips, int over) {
+    choose(pose, clips, over, true);
 }
 
 /* In integers until it is small: exact after years. Other speeds than 1 are so to 2^-53. */
@@ -219,6 +239,7 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     pose->time_ns = time_ns;
     if (!pose->animated) return;
     const struct gn_scene_animation *animation = &pose->scene->animation;
+    if (pose->fade < 1) gn_deformer_rest(&memory->deformer, pose);
     for (uint32_t c = 0; c < animation->clip_count; c++)
         if (clip_on(pose, c) && pose->over != (int)c)
             step_clip(pose, &animation->clips[c],
@@ -227,6 +248,7 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     if (pose->over >= 0)
         step_clip(pose, &animation->clips[pose->over],
                   gn_pose_clip_ns(&loop, animation->clips[pose->over].duration_ns, pose->over_ns));
+    if (pose->fade < 1) gn_fade_weights(&memory->fade, pose, &memory->deformer);
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     gn_deformer_step(&memory->deformer, pose, true);
     for (uint32_t i = 0; i < memory->item_count; i++) pose_item(pose, memory->items[i]);
@@ -240,6 +262,7 @@ void gn_pose_finish(struct gn_pose *pose) {
         free(memory->nodes);
         free(memory->items);
         gn_deformer_finish(&memory->deformer);
+        gn_fade_finish(&memory->fade);
         free(memory);
     }
     free(pose->world_from_node);

@@ -37,6 +37,8 @@ struct gn_pose {
     int over;  /* number of a clip that plays over those, at over_ns; -1: none */
     int64_t over_ns;
     struct gn_pose_run run;
+    float fade;  /* share of the chosen clips, against what gn_pose_choose_fading() kept; 1: they
+                    alone */
     int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
     int64_t time_ns;
     mat4 *world_from_node;      /* scene->node_count */
@@ -59,6 +61,9 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
  * what both move follows it, at a time of its own; -1: none. */
 void gn_pose_choose(struct gn_pose *pose, int clips);
 void gn_pose_choose_over(struct gn_pose *pose, int clips, int over);
+/* The same, from what is shown now: fade becomes 0. The caller raises it before each step; when it
+ * is 1 it chooses again, without a fade. */
+void gn_pose_choose_fading(struct gn_pose *pose, int clips, int over);
 /* Shows the items of that variant of materials, at the same time; a new pose has none. Allocates
  * nothing. */
 void gn_pose_choose_variant(struct gn_pose *pose, int variant);

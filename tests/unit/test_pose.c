@@ -203,6 +203,37 @@ static void test_turns_and_speed_of_clips(void **state) {
     assert_true(pose.world_from_node[0][3][0] == 2);
 }
 
+static float x_of(int node) { return pose.world_from_node[node][3][0]; }
+
+/* From one clip to another: what was shown, half of each, the other. Allocates nothing. */
+static void test_a_fade_between_clips(void **state) {
+    const int64_t half_ns = GN_NS_PER_S / 2;
+    (void)state;
+    animate("translation", MOVE, "LINEAR");
+    animate("rotation", TURN, "LINEAR");
+    load(0);
+    gn_pose_step(&pose, half_ns);
+    assert_true(x_of(0) == 2);
+    const unsigned long allocations = gn_alloc_count();
+    gn_pose_choose_fading(&pose, 1, -1);
+    gn_pose_step(&pose, half_ns);
+    assert_float_equal(x_of(0), 2, 1e-5);
+    assert_float_equal(pose.world_from_node[0][0][0], 1, 1e-5); /* no turn yet */
+    pose.fade = .25f;
+    gn_pose_step(&pose, GN_NS_PER_S); /* clip 1 there: a quarter turn */
+    assert_float_equal(x_of(0), 1.5, 1e-5);
+    const double w = .75 + .25 * sqrt(.5), y = .25 * sqrt(.5); /* by hand, before the length is 1 */
+    assert_float_equal(pose.world_from_node[0][0][0], 1 - 2 * y * y / (w * w + y * y), 1e-5);
+    gn_pose_choose_fading(&pose, 0, -1); /* back, in the midst of it */
+    gn_pose_step(&pose, GN_NS_PER_S);
+    assert_float_equal(x_of(0), 1.5, 1e-5);
+    assert_float_equal(pose.world_from_node[0][0][0], 1 - 2 * y * y / (w * w + y * y), 1e-5);
+    gn_pose_choose_over(&pose, 0, -1);
+    gn_pose_step(&pose, half_ns);
+    assert_true(x_of(0) == 2 && pose.world_from_node[0][0][0] == 1);
+    assert_int_equal(gn_alloc_count(), allocations);
+}
+
 static void test_items_follow_and_nothing_is_allocated(void **state) {
     (void)state;
     animate("translation", MOVE, "LINEAR");
@@ -402,6 +433,7 @@ int main(void) {
         TEST(test_clips),
         TEST(test_a_clip_over_others),
         TEST(test_turns_and_speed_of_clips),
+        TEST(test_a_fade_between_clips),
         TEST(test_items_follow_and_nothing_is_allocated),
         TEST(test_mirrored_and_invisible),
         TEST(test_unusable_channels_are_left_out),
