@@ -126,6 +126,10 @@ static void act_play(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     (void)rules;
     if (e->clip < 0) return;
     if (s->paused) toggle_pause(s, e->time_ns);
+    if (s->seen_ns != 0 && e->time_ns > s->seen_ns) { /* where all stands no frame passes time */
+        pass_time(s, e->time_ns - s->seen_ns);
+        s->seen_ns = e->time_ns;
+    }
     s->play = (struct gn_kiosk_play){.clip_plus_1 = e->clip + 1, .length_ns = e->clip_ns};
 }
 

@@ -110,9 +110,11 @@ bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
 static void choose_clips(struct gn_show *s, int clips, int over, int64_t seen_ns) {
     struct gn_pose *pose = &s->stage.pose;
     const int64_t fade_ns = s->stage.settings->kiosk.clip_fade_ns;
+    const bool was_seen = s->clips_of == s->stage.scene && s->counts.frames > 0;
+    s->clips_of = s->stage.scene;
     if (clips != pose->clips || over != pose->over) {
         s->clips_begun_ns = seen_ns;
-        if (fade_ns > 0 && s->counts.frames > 0)
+        if (fade_ns > 0 && was_seen)
             gn_pose_choose_fading(pose, clips, over);
         else
             gn_pose_choose_over(pose, clips, over);
@@ -133,7 +135,7 @@ void gn_show_enter(struct gn_show *s) {
     s->stage.frame_opts = look->frame_opts;
     if (look->frame_opts.view.camera == before.view.camera)
         s->stage.frame_opts.view.orbit = before.view.orbit;
-    choose_clips(s, look->clips, -1, gn_loop_now_ns(s->loop));
+    choose_clips(s, look->clips, s->stage.pose.over, gn_loop_now_ns(s->loop));
     gn_pose_choose_variant(&s->stage.pose, look->variant);
     s->ahead.keeps = s->ahead.idle = false;
     s->changed = true;

@@ -207,7 +207,9 @@ int64_t gn_pose_clip_ns(const struct gn_pose_run *run, int64_t length_ns, int64_
     if (length_ns <= 0) return 0;
     if (run->speed_less_1 != 0) {
         const double there = (double)time_ns * (1 + run->speed_less_1);
-        time_ns = fabs(there) < 9e18 ? (int64_t)there : 0;
+        const bool fits = fabs(there) < 9e18;
+        if (!fits && run->turns == GN_POSE_ONCE) return there < 0 ? 0 : length_ns;
+        time_ns = fits ? (int64_t)there : 0;
     }
     if (run->turns == GN_POSE_ONCE)
         return time_ns < 0 ? 0 : time_ns < length_ns ? time_ns : length_ns;

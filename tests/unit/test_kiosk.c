@@ -134,6 +134,17 @@ static void a_clip_plays_once_and_the_scene_goes_on_where_it_was(void **state) {
     assert_int_equal(gn_kiosk_view(&three, &s, 17 * S).time_ns, 4 * S);
 }
 
+/* Where nothing moves there is no frame for minutes. */
+static void a_clip_begins_at_its_start_after_a_still_hour(void **state) {
+    (void)state;
+    struct gn_kiosk s = on(&three, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 10 * S);
+    s = play(&three, s, 3610 * S, 4);
+    struct gn_kiosk_view view = gn_kiosk_view(&three, &s, 3611 * S);
+    assert_int_equal(view.clip, 4);
+    assert_int_equal(view.clip_ns, S);
+    assert_int_equal(view.time_ns, 3600 * S);
+}
+
 static void a_press_begins_the_clip_anew_or_is_ignored(void **state) {
     (void)state;
     struct gn_kiosk_rules r = three;
@@ -421,6 +432,7 @@ int main(void) {
         cmocka_unit_test(a_camera_that_is_chosen_has_a_caption),
         cmocka_unit_test(a_note_replaces_a_caption_for_its_time),
         cmocka_unit_test(a_clip_plays_once_and_the_scene_goes_on_where_it_was),
+        cmocka_unit_test(a_clip_begins_at_its_start_after_a_still_hour),
         cmocka_unit_test(a_press_begins_the_clip_anew_or_is_ignored),
         cmocka_unit_test(another_mode_ends_a_clip_and_a_pause_holds_it),
         cmocka_unit_test(the_idle_timeout_begins_at_the_end_of_a_clip),
