@@ -40,7 +40,7 @@ static json_t *make_numbers(const double *values, size_t count) {
 
 /* matrix = matrix x translation x scale */
 static void fold_into_matrix(json_t *node, const double offset[3], double step) {
-    double m[16];
+    double m[16] = {0};
     json_t *matrix = json_object_get(node, "matrix");
     if (json_array_size(matrix) != 16) return;
     read_numbers(matrix, 16, m);

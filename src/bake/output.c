@@ -171,7 +171,7 @@ static bool write_glb(struct gn_baker *b, const char *text, struct gn_bytes *out
     const size_t head[] = {MAGIC, 2, total, json, JSON};
     for (int i = 0; i < 5; i++, at += 4) put_u32(at, head[i]);
     memset(at, ' ', json);
-    memcpy(at, text, length);
+    for (size_t i = 0; i < length; i++) at[i] = (uint8_t)text[i]; /* without the zero at its end */
     at += json;
     if (bin == 0) return true;
     put_u32(at, b->size);

@@ -192,8 +192,8 @@ bool gn_stream_read(struct gn_baker *b, const struct gn_grid *grid, bool alone,
 /* ---- writing ---- */
 
 static double component_at(const uint8_t *at, int component) {
-    float f;
-    uint16_t u;
+    float f = 0;
+    uint16_t u = 0;
     memcpy(&f, at, component_bytes(component) == 4 ? 4 : 0);
     memcpy(&u, at, component_bytes(component) == 2 ? 2 : 0);
     switch (component) {

@@ -24,7 +24,8 @@ static int format_of(const struct gn_bytes *bytes) {
     int i = 0;
     for (; i < FORMAT_COUNT; i++) {
         const struct format *f = &formats[i];
-        if (bytes->size >= f->at + f->size && memcmp(bytes->data + f->at, f->magic, f->size) == 0)
+        if (bytes->data && bytes->size >= f->at + f->size &&
+            memcmp(bytes->data + f->at, f->magic, f->size) == 0)
             break;
     }
     return i;
