@@ -1,11 +1,12 @@
 #!/bin/bash
 # [kiosk] watch: the scene is replaced under way, by rename and in place, half of the times by a bad
 # or unfinished file. Each good one is shown within 2 s once it is written, no bad one ever, and no
-# black picture; the status has what is wrong while it is. GN_FULL=1: a thousand times.
+# black picture; the status has what is wrong while it is. GN_FULL=1: a hundred times; TIMES=N: N.
 set -u
 gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
 times=30
-[ "${GN_FULL:-}" != 1 ] || times=1000
+[ "${GN_FULL:-}" != 1 ] || times=100
+times=${TIMES:-$times}
 folder=$(mktemp -d)
 kiosk=''
 trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
