@@ -81,7 +81,7 @@ names=(green blue red)
 for ((i = 0; i < times; i += 2)); do
     good=${names[i / 2 % 3]}
     case $((i / 2 % 5)) in
-    0) head -c $((100 + i * 37 % 500)) "$good.gltf" > shown/scene.gltf ;; # cut short
+    0) head -c $((100 + i * 37 % 400)) "$good.gltf" > shown/scene.gltf ;; # cut short
     1) : > shown/scene.gltf ;;
     2) head -c 300 /dev/urandom > shown/.new && mv shown/.new shown/scene.gltf ;;
     3) rm shown/scene.gltf ;;
