@@ -225,15 +225,46 @@ static float draw_order(const struct gn_frame *frame, const struct gn_draw *draw
     return draw->depth_m + (masked ? 1e9f : 0.0f);
 }
 
-/* Insertion sort: few draws, nearly sorted from frame to frame. */
-void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first) {
-    struct gn_draw *draws = frame->draws.at;
-    for (uint32_t i = first + 1; i < frame->draws.count; i++) {
+/* Insertion sort: most passes have few draws, nearly sorted from frame to frame. */
+static void insert_draws(const struct gn_frame *frame, struct gn_draw *draws, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
         struct gn_draw draw = draws[i];
         float order = draw_order(frame, &draw);
         uint32_t at = i;
-        for (; at > first && draw_order(frame, &draws[at - 1]) > order; at--)
-            draws[at] = draws[at - 1];
+        for (; at > 0 && draw_order(frame, &draws[at - 1]) > order; at--) draws[at] = draws[at - 1];
         draws[at] = draw;
+    }
+}
+
+/* Two sorted runs that adjoin, into out. */
+static void merge_draws(const struct gn_frame *frame, const struct gn_draw *draws, uint32_t middle,
+                        uint32_t count, struct gn_draw *out) {
+    uint32_t left = 0, right = middle;
+    for (uint32_t i = 0; i < count; i++) {
+        const bool takes_right =
+            left == middle ||
+            (right < count && draw_order(frame, &draws[left]) > draw_order(frame, &draws[right]));
+        out[i] = draws[takes_right ? right++ : left++];
+    }
+}
+
+/* Merge sort of runs, since thousands of draws come in the order of batches; stable, too. */
+void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first) {
+    enum { RUN = 32 };
+    const uint32_t count = frame->draws.count - first;
+    struct gn_draw *draws = frame->draws.at + first;
+    for (uint32_t i = 0; i < count; i += RUN)
+        insert_draws(frame, draws + i, count - i < RUN ? count - i : RUN);
+    frame->items.merged.count = 0;
+    while (count > RUN && frame->items.merged.count < count)
+        GN_LIST_PUSH(&frame->items.merged) = (struct gn_draw){0};
+    for (uint64_t width = RUN; width < count; width *= 2) {
+        struct gn_draw *out = frame->items.merged.at;
+        for (uint64_t i = 0; i < count; i += 2 * width) {
+            const uint32_t left = (uint32_t)i, most = (uint32_t)(count - i);
+            merge_draws(frame, draws + left, width < most ? (uint32_t)width : most,
+                        2 * width < most ? (uint32_t)(2 * width) : most, out + left);
+        }
+        memcpy(draws, out, count * sizeof *draws);
     }
 }

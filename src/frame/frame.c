@@ -26,6 +26,7 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->items.blended.at);
     free(frame->items.run.at);
     free(frame->items.sorted.at);
+    free(frame->items.merged.at);
     free(frame->passes.at);
     free(frame->notes.lights.at);
     for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++)

@@ -109,10 +109,11 @@ struct gn_frame {
     GN_LIST(struct gn_pass) passes;
     struct {
         GN_LIST(struct gn_placed) blended, run, sorted;
-    } items;               /* of the pass that is being built */
-    float (*constants)[4]; /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
-    float (*sets)[4];      /* stencil.c's, likewise; NULL until there are any */
-    uint32_t camera;       /* of the scene; after those its lights */
+        GN_LIST(struct gn_draw) merged; /* room to sort in */
+    } items;                            /* of the pass that is being built */
+    float (*constants)[4];              /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
+    float (*sets)[4];                   /* stencil.c's, likewise; NULL until there are any */
+    uint32_t camera;                    /* of the scene; after those its lights */
     struct gn_eye eye;
     struct {
         uint32_t width_px, height_px; /* before it is turned */
