@@ -12,7 +12,7 @@ static GLuint make_texels(struct gn_gl *gl, uint32_t width, uint32_t height) {
 }
 
 /* Texels first .. first + count, row after row. */
-static void send_texels(struct gn_gl *gl, uint32_t first, uint64_t count, vec4 *texels) {
+static void send_texels(struct gn_gl *gl, uint32_t first, uint64_t count, const vec4 *texels) {
     while (count > 0) {
         const uint32_t x = first % GN_DELTAS_WIDTH, y = first / GN_DELTAS_WIDTH;
         uint32_t width = GN_DELTAS_WIDTH - x, rows = 1;
@@ -32,21 +32,29 @@ bool gn_gl_deltas_step(struct gn_gl *gl, size_t bytes) {
     const struct gn_scene_deformation *d = &scene->deformation;
     uint32_t *next = &gl->scene.upload.first;
     if (d->width == 0) return true;
-    if (*next == 0) {
+    if (*next == 0 && gl->scene.upload.texel == 0) {
         const uint64_t rows = (d->delta_texels + GN_DELTAS_WIDTH - 1) / GN_DELTAS_WIDTH;
         for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
             gl->scene.deformation.pose[i] = make_texels(gl, d->width, d->height);
         if (rows > 0)
             gl->scene.deformation.deltas = make_texels(gl, GN_DELTAS_WIDTH, (uint32_t)rows);
     }
-    for (size_t sent = 0; *next < scene->geometry_count && sent < bytes; ++*next) {
+    uint32_t *sent = &gl->scene.upload.texel;
+    for (size_t left = bytes / sizeof(vec4); *next < scene->geometry_count && left > 0;) {
         const struct gn_geometry *geometry = &scene->geometries[*next];
         const struct gn_targets *targets = geometry->targets;
-        if (!targets) continue;
-        const uint64_t count = (uint64_t)targets->count * targets->parts * geometry->vertex_count;
-        gn_gl_work_on_texture(gl, gl->scene.deformation.deltas);
-        send_texels(gl, targets->first_texel, count, targets->deltas);
-        sent += count * sizeof *targets->deltas;
+        uint64_t count = 0;
+        if (targets) {
+            count = (uint64_t)targets->count * targets->parts * geometry->vertex_count - *sent;
+            if (count > left) count = left;
+            gn_gl_work_on_texture(gl, gl->scene.deformation.deltas);
+            send_texels(gl, targets->first_texel + *sent, count, targets->deltas + *sent);
+            *sent += (uint32_t)count;
+            left -= count;
+        }
+        if (left == 0) break; /* it may have more */
+        *sent = 0;
+        ++*next;
     }
     return *next == scene->geometry_count;
 }

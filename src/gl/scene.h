@@ -45,7 +45,8 @@ enum gn_gl_upload_phase {
 };
 struct gn_gl_upload {
     enum gn_gl_upload_phase phase;
-    uint32_t first; /* vertex, index or use of a texture that comes next */
+    uint32_t first; /* vertex, index, geometry or use of a texture that comes next */
+    uint32_t texel; /* of the deltas of that geometry */
     struct gn_gl_curve *curve;
     struct gn_gl_picture picture;
     bool no_memory; /* for a picture's smaller levels */
