@@ -1,0 +1,183 @@
+/* The kiosk while a large scene loads: the default scene goes on turning, whatever is read,
+ * uploaded and made ready meanwhile. GN_FULL=1: 2 million triangles, 4,096 nodes, 500 textures;
+ * else an eighth of that. */
+#include "unit/check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "core/clock.h"
+#include "image/large.h"
+#include "kiosk/private.h"
+#include "options/args.h"
+#include "unit/gl_help.h"
+
+#define PATIENCE_NS (120 * GN_NS_PER_S)
+enum { CALM_FRAMES = 120, FRAMES_MAX = 20000 };
+
+static char folder[100];
+
+/* What the kiosk did between two frames. */
+enum work { CALM, READS, BEGINS, UPLOADS, WARMS, SHOWS, WORKS };
+static const char *const works[WORKS] = {"nothing", "a load",  "a load's end",
+                                         "uploads", "warm-up", "the change"};
+struct frame {
+    int64_t ns, cpu_ns;
+    enum work work;
+};
+
+static int64_t cpu_ns(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return t.tv_sec * GN_NS_PER_S + t.tv_nsec;
+}
+
+static void write_config(const char *scene) {
+    char text[400];
+    snprintf(text, sizeof text, "[scene]\nturntable = 10\n%s%s\n[render]\nshadow = hard\n",
+             scene ? "file = " : "", scene ? scene : "");
+    help_write(folder, "kiosk.ini", text);
+}
+
+static struct gn_show *open_show(void) {
+    static struct gn_warnings warnings;
+    static char config[200];
+    static const char *argv[] = {"gnomon",  "show", "--backend", "egl", "--size",
+                                 "320x180", "-c",   config,      NULL};
+    struct gn_options options;
+    struct gn_err err = {0};
+    snprintf(config, sizeof config, "%s/kiosk.ini", folder);
+    if (!gn_args_parse(&options, 8, (char *const *)(uintptr_t)argv, &warnings, &err))
+        fail_msg("%s", err.text);
+    struct gn_show *show = gn_show_open(&options, &warnings, &err);
+    gn_options_finish(&options);
+    if (!show) fail_msg("%s", err.text);
+    return show;
+}
+
+static enum work work_of(const struct gn_show *show) {
+    if (show->scenes.staged)
+        return !show->scenes.frame ? BEGINS : show->scenes.whole ? WARMS : UPLOADS;
+    return show->reload.options ? READS : CALM;
+}
+
+/* Steps until the next frame; the work that it did meanwhile last. */
+static struct frame next_frame(struct gn_show *show) {
+    const uint64_t frames = show->counts.frames;
+    const int64_t begun_ns = gn_clock_monotonic_ns(), begun_cpu_ns = cpu_ns();
+    struct frame f = {.work = CALM};
+    while (show->counts.frames == frames) {
+        struct gn_err err = {0};
+        const enum work before = work_of(show);
+        if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+        const enum work after = work_of(show);
+        if (before > f.work) f.work = before;
+        if (after > f.work) f.work = after;
+        if (before != CALM && after == CALM) f.work = SHOWS;
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+    f.ns = gn_clock_monotonic_ns() - begun_ns;
+    f.cpu_ns = cpu_ns() - begun_cpu_ns;
+    return f;
+}
+
+/* Returns the most processor time of the loop that one took while something else than its own
+ * scene was worked on. What the kiosk draws first of the new scene is that scene's own. */
+static int64_t print_frames(const char *name, const struct frame *frames, int count) {
+    struct frame most[WORKS] = {{0}};
+    int counts[WORKS] = {0};
+    int64_t most_cpu_ns = 0;
+    for (int i = 0; i < count; i++) {
+        struct frame *m = &most[frames[i].work];
+        counts[frames[i].work]++;
+        if (frames[i].ns > m->ns) m->ns = frames[i].ns;
+        if (frames[i].cpu_ns > m->cpu_ns) m->cpu_ns = frames[i].cpu_ns;
+    }
+    for (int w = 0; w < WORKS; w++)
+        if (counts[w])
+            printf("%s: %d frames with %s: within %.1f ms, the loop %.1f ms\n", name, counts[w],
+                   works[w], (double)most[w].ns * 1e-6, (double)most[w].cpu_ns * 1e-6);
+    for (int w = READS; w < SHOWS; w++)
+        if (most[w].cpu_ns > most_cpu_ns) most_cpu_ns = most[w].cpu_ns;
+    return most_cpu_ns;
+}
+
+/* From the default scene to another: the most processor time of the loop in a frame meanwhile. */
+static int64_t load_scene(const char *name, const char *path) {
+    static struct frame frames[FRAMES_MAX], calm[CALM_FRAMES];
+    write_config(NULL);
+    struct gn_show *show = open_show();
+    for (int i = 0; i < 60; i++) next_frame(show);
+    for (int i = 0; i < CALM_FRAMES; i++) calm[i] = next_frame(show);
+    print_frames(name, calm, CALM_FRAMES);
+    write_config(path);
+    show->reloads = true;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    int count = 0;
+    do {
+        assert_true(count < FRAMES_MAX);
+        frames[count] = next_frame(show);
+    } while (frames[count++].work != SHOWS);
+    printf("%s: shown after %.1f s\n", name, (double)(gn_clock_monotonic_ns() - begun_ns) * 1e-9);
+    const int64_t most_ns = print_frames(name, frames, count);
+    gn_show_close(show);
+    return most_ns;
+}
+
+/* Twice: the first time the shader cache may be cold. What other programs do not change is the
+ * processor time of the loop: two frame times of it are two missed frames on any machine. */
+static void check_load(const char *name, const struct gn_large *large) {
+    char path[200];
+    struct gn_err err = {0};
+    snprintf(path, sizeof path, "%s/%s.glb", folder, name);
+    if (!gn_large_write(large, path, &err)) fail_msg("%s", err.text);
+    load_scene(name, path);
+    assert_true(load_scene(name, path) < 2 * GN_NS_PER_S / 60);
+    remove(path);
+}
+
+static void the_default_scene_turns_on_while_a_large_one_loads(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        struct gn_large large;
+    } rows[] = {
+        {"triangles", {.triangles = 2000000, .nodes = 1}},
+        {"nodes", {.triangles = 2000000, .nodes = 4096}},
+        {"textures", {.triangles = 100000, .nodes = 500, .textures = 500, .texture_px = 256}},
+    };
+    const char *full = getenv("GN_FULL");
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct gn_large large = rows[i].large;
+        if (!full || !*full) {
+            large.triangles /= 8;
+            large.nodes = (large.nodes + 7) / 8;
+            large.textures /= 8;
+        }
+        check_load(rows[i].name, &large);
+    }
+}
+
+static int begin(void **state) {
+    struct gn_display display;
+    (void)state;
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    snprintf(folder, sizeof folder, "%s", help_folder());
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    help_remove(folder);
+    return 0;
+}
+
+int main(void) {
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_default_scene_turns_on_while_a_large_one_loads),
+    };
+    return cmocka_run_group_tests(tests, begin, end);
+}
