@@ -32,4 +32,12 @@ bool gn_bake_is_built(void);
 bool gn_bake(const struct gn_bake_opts *opts, const void *data, size_t size, struct gn_bytes *out,
              struct gn_bake_report *report, struct gn_warnings *warnings, struct gn_err *err);
 
+enum { GN_BAKE_TEXTURE_PX = 2048 }; /* the command's limit by itself */
+struct gn_bake_estimate {           /* of attributes and indices that are not compressed */
+    double bytes, bytes_baked;
+};
+/* Reads only the headers of accessors. False: the file is refused, as Draco-compressed ones are. */
+bool gn_bake_estimate(const struct gn_bake_opts *opts, const void *data, size_t size,
+                      struct gn_bake_estimate *out);
+
 #endif

@@ -5,6 +5,9 @@
 #include "bake/private.h"
 
 enum { STEPS = 65535 }; /* of a grid that 16 bits hold */
+/* What undoes a grid takes 80 bytes of JSON in each node, and shorts save a vertex about 2 more
+ * than floats do on the same grid. */
+enum { NODE_VERTICES = 40 };
 
 struct bounds {
     double low[3], high[3];
@@ -27,9 +30,10 @@ static bool add_positions(struct gn_baker *b, size_t accessor, struct bounds *bo
     return true;
 }
 
-/* Whether the nodes of a mesh can undo a grid, by mesh: nodes without a skin or instances, and one
- * at least. */
-static void find_movable(const struct gn_baker *b, bool *movable, bool *used, size_t mesh_count) {
+/* Whether the nodes of a mesh can undo a grid, by mesh: nodes without a skin or instances; and how
+ * many they are. */
+static void find_movable(const struct gn_baker *b, bool *movable, size_t *users,
+                         size_t mesh_count) {
     const json_t *node;
     size_t i;
     json_array_foreach(json_object_get(b->root, "nodes"), i, node) {
@@ -37,7 +41,7 @@ static void find_movable(const struct gn_baker *b, bool *movable, bool *used, si
         if (mesh < 0 || (uint64_t)mesh >= mesh_count) continue;
         movable[mesh] &=
             !json_object_get(node, "skin") && !gn_bake_extension(node, "EXT_mesh_gpu_instancing");
-        used[mesh] = true;
+        users[mesh]++;
     }
 }
 
@@ -54,12 +58,13 @@ static void fit_grid(struct gn_grid *grid, const struct bounds *bounds) {
     }
 }
 
-/* *finite: whether its primitives can be made anew. */
-static struct gn_grid choose_grid(struct gn_baker *b, const json_t *mesh, bool movable,
+/* users: nodes that can undo a grid, or 0. *finite: whether its primitives can be made anew. */
+static struct gn_grid choose_grid(struct gn_baker *b, const json_t *mesh, size_t users,
                                   bool *finite) {
-    struct gn_grid grid = {.kind = movable ? GN_GRID_SHORTS : GN_GRID_FLOATS, .step = 1};
+    struct gn_grid grid = {.kind = users ? GN_GRID_SHORTS : GN_GRID_FLOATS, .step = 1};
     struct bounds bounds = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
     bool floats = true, any = false;
+    size_t vertices = 0;
     const json_t *primitive;
     size_t i;
     *finite = true;
@@ -71,10 +76,12 @@ static struct gn_grid choose_grid(struct gn_baker *b, const json_t *mesh, bool m
         any = true;
         floats &= add_positions(b, (size_t)position, &bounds);
         if (b->failed || !gn_document_accessor(b->in, (size_t)position, &e)) return grid;
+        vertices += e.count;
         *finite &= floats || e.component != GN_COMPONENT_F32;
         if (json_object_get(primitive, "targets") && grid.kind == GN_GRID_SHORTS)
             grid.kind = GN_GRID_FLOATS;
     }
+    if (vertices / NODE_VERTICES < users) grid.kind = GN_GRID_FLOATS;
     if (!floats || !any)
         grid.kind = GN_GRID_NONE;
     else
@@ -96,11 +103,11 @@ static bool has_data(struct gn_baker *b, const json_t *primitive, size_t mesh) {
                         mesh);
 }
 
-static bool bake_mesh(struct gn_baker *b, json_t *mesh, size_t index, bool movable, bool used,
+static bool bake_mesh(struct gn_baker *b, json_t *mesh, size_t index, bool movable, size_t users,
                       size_t *primitive_number) {
     bool finite = true, locks_border;
     json_t *primitive, *primitives = json_object_get(mesh, "primitives");
-    size_t i, baked = 0, triangles = 0;
+    size_t i, triangles = 0;
     json_array_foreach(primitives, i, primitive) {
         if (!has_data(b, primitive, index)) return false;
         const int64_t mode = gn_bake_number(primitive, "mode");
@@ -108,19 +115,18 @@ static bool bake_mesh(struct gn_baker *b, json_t *mesh, size_t index, bool movab
     }
     locks_border = json_array_size(primitives) > 1;
     /* lines and points of a mesh would need the grid, too */
-    movable &= used && triangles == json_array_size(primitives);
+    movable &= triangles == json_array_size(primitives);
     struct gn_grid *grid = &b->grids[index];
-    *grid = choose_grid(b, mesh, movable, &finite);
+    *grid = choose_grid(b, mesh, movable ? users : 0, &finite);
     json_array_foreach(primitives, i, primitive) {
         bool *is_baked = &b->is_baked[(*primitive_number)++];
         if (b->failed || (finite && !gn_bake_primitive(b, primitive, grid, locks_border, is_baked)))
             return false;
-        baked += *is_baked;
         b->report->primitives++;
         b->report->kept_primitives += !*is_baked;
     }
-    if (grid->kind != GN_GRID_SHORTS || baked == json_array_size(primitives)) return true;
-    return gn_bake_fail(b, "meshes[%zu]: has a primitive without triangles; take it out", index);
+    /* of a mesh of shorts only primitives that show nothing can be left */
+    return true;
 }
 
 bool gn_bake_meshes(struct gn_baker *b) {
@@ -132,12 +138,12 @@ bool gn_bake_meshes(struct gn_baker *b) {
     b->grids = gn_arena_alloc(&b->whole, mesh_count, sizeof *b->grids);
     b->is_baked = gn_arena_alloc(&b->whole, primitives, sizeof *b->is_baked);
     bool *movable = gn_arena_alloc(&b->whole, mesh_count, sizeof *movable);
-    bool *used = gn_arena_alloc(&b->whole, mesh_count, sizeof *used);
-    if (!b->grids || !b->is_baked || !movable || !used) return gn_bake_fail(b, "out of memory");
+    size_t *users = gn_arena_alloc(&b->whole, mesh_count, sizeof *users);
+    if (!b->grids || !b->is_baked || !movable || !users) return gn_bake_fail(b, "out of memory");
     memset(movable, true, mesh_count);
-    find_movable(b, movable, used, mesh_count);
+    find_movable(b, movable, users, mesh_count);
     primitives = 0;
-    json_array_foreach(
-        meshes, i, mesh) if (!bake_mesh(b, mesh, i, movable[i], used[i], &primitives)) return false;
+    json_array_foreach(meshes, i, mesh) if (!bake_mesh(b, mesh, i, movable[i], users[i],
+                                                       &primitives)) return false;
     return true;
 }

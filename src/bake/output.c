@@ -1,4 +1,5 @@
 /* The .glb under construction. */
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -180,6 +181,24 @@ static bool write_glb(struct gn_baker *b, const char *text, struct gn_bytes *out
     return true;
 }
 
+/* Whether numbers of 9 digits say all that these do. What is read as floats loses nothing by them;
+ * extras are whoever's, and places far off are read in double precision. */
+static bool fits_9_digits(const json_t *json, bool is_extra) {
+    const json_t *value;
+    const char *key;
+    size_t i;
+    if (json_is_object(json)) json_object_foreach((json_t *)(uintptr_t)json, key, value) {
+            if (!fits_9_digits(value, is_extra || strcmp(key, "extras") == 0)) return false;
+        }
+    json_array_foreach(json, i, value) if (!fits_9_digits(value, is_extra)) return false;
+    if (!json_is_real(json)) return true;
+    char text[32];
+    const double number = json_real_value(json);
+    snprintf(text, sizeof text, "%.9g", number);
+    const double again = strtod(text, NULL);
+    return again == number || (!is_extra && fabs(number) < 1000 && (float)again == (float)number);
+}
+
 bool gn_bake_write(struct gn_baker *b, struct gn_bytes *out) {
     pad_chunk(b);
     if (b->size > 0)
@@ -191,7 +210,8 @@ bool gn_bake_write(struct gn_baker *b, struct gn_bytes *out) {
         gn_bake_require_extension(b, MESHOPT);
     }
     if (b->quantized) gn_bake_require_extension(b, "KHR_mesh_quantization");
-    char *text = b->failed ? NULL : json_dumps(b->root, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    const size_t digits = fits_9_digits(b->root, false) ? 9 : 17;
+    char *text = b->failed ? NULL : json_dumps(b->root, JSON_COMPACT | JSON_REAL_PRECISION(digits));
     if (!text) return gn_bake_fail(b, "out of memory");
     const bool done = write_glb(b, text, out);
     free(text);

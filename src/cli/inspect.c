@@ -30,6 +30,7 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
                        "shadow maps of %llu MB exceed the limit maps_mb=%llu: they are reduced",
                        (unsigned long long)(in.cost.map_bytes + 1048575) >> 20,
                        (unsigned long long)limits.maps_mb);
+    gn_inspect_advise_bake(&in, path, &limits);
     if (options->settings->run.json)
         ok = gn_inspect_print_json(&in, stdout, err);
     else

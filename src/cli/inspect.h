@@ -38,6 +38,10 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
 /* Fills advice; the cost must be known. */
 void gn_inspect_advise(struct gn_inspection *in);
 
+/* Adds what baking the file would save; path: NULL, or any format. */
+void gn_inspect_advise_bake(struct gn_inspection *in, const char *path,
+                            const struct gn_scene_limits *limits);
+
 void gn_inspect_print(const struct gn_inspection *in, FILE *to);
 /* One object:
  * file, name, size_m [x, y, z],

@@ -74,6 +74,24 @@ refused 1 'cut.glb' ../cut.glb -o a.glb
 refused 1 'part.step' ../part.step -o a.glb
 refused 1 'gone.glb' gone.glb -o a.glb
 refused 2 '--simplify' "$sundial" -o a.glb --simplify 2
+# a full disk: the old file stays
+mkdir "$folder/full"
+echo old > "$folder/full/a.glb"
+(ulimit -f 32 && "$gnomon" bake "$sundial" -o "$folder/full/a.glb" > "$folder/out" 2> "$folder/err") && complain 'a full disk is not noticed'
+[ "$(wc -l < "$folder/err")" = 1 ] || complain "a full disk: $(cat "$folder/err")"
+[ "$(ls -A "$folder/full")" = a.glb ] && [ "$(cat "$folder/full/a.glb")" = old ] || complain "a full disk leaves $(ls -A "$folder/full")"
+
+# inspect says when baking helps, and by how much: 6.0 MB of plain floats; nothing of what is baked or small
+head -c 6291456 /dev/zero > "$folder/plain.bin"
+echo '{"asset":{"version":"2.0"},"buffers":[{"uri":"plain.bin","byteLength":6291456}],"bufferViews":[{"buffer":0,"byteLength":6291456}],
+"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":524288,"min":[0,0,0],"max":[0,0,0]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}' > "$folder/plain.gltf"
+"$gnomon" inspect "$folder/plain.gltf" > "$folder/out" 2> "$folder/err" || complain "plain.gltf: $(cat "$folder/err")"
+grep -q 'meshes take 6.0 MB of the file, 1.9 MB would do' "$folder/out" && grep -q 'cure: gnomon bake' "$folder/out" || complain 'inspect has no word of bake'
+for file in assets/sundial.glb "$folder/once.glb"; do
+    "$gnomon" inspect "$file" | grep -q 'gnomon bake' && complain "inspect: baking $file would help"
+done
+
 if [ -d "$assets/../malformed" ]; then
     find "$assets/../malformed" -name '*.gl*' | sort | awk "NR % ${GN_FULL:+1 + 0 * }7 == 0" > "$folder/list"
     while IFS= read -r file; do
