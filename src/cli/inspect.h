@@ -59,7 +59,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to);
  * hemisphere {sky, ground, background},
  * cost {width_px, height_px, passes, shadow_passes, draws, shadow_draws, programs, culled,
  *     triangles, shadow_triangles, vertex_bytes, index_bytes, texture_bytes, map_bytes,
- *     target_bytes, memory_bytes},
+ *     target_bytes, memory_bytes, loading_bytes (at most, while it was loaded)},
  * limits (text: NAME=VALUE, ..),
  * warnings [text], warnings_dropped, advice [{what, cure}], advice_dropped. */
 bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err);

@@ -161,7 +161,8 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     print_line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
                "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
                GN_MB(c->map_bytes), GN_MB(c->target_bytes));
-    print_line(to, "%-11s %.2f MB", "memory", GN_MB(s->memory.bytes));
+    print_line(to, "%-11s %.2f MB, while it is loaded up to %.2f MB", "memory",
+               GN_MB(s->memory.bytes), GN_MB(s->memory.loading_bytes));
     if (in->limits[0]) print_line(to, "%-11s %s", "limits", in->limits);
 
     const int warnings = in->warnings ? in->warnings->count : 0;
@@ -289,7 +290,7 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
                                   vector_json(s->environment.ground), "background",
                                   vector_json(s->environment.background)));
     json_t *cost = json_pack(
-        "{si si so so so so so so so so so so so so so so}", "width_px", GN_INSPECT_WIDTH_PX,
+        "{si si so so so so so so so so so so so so so so so}", "width_px", GN_INSPECT_WIDTH_PX,
         "height_px", GN_INSPECT_HEIGHT_PX, "passes", gn_json_make_count(c->passes), "shadow_passes",
         gn_json_make_count(c->shadow_passes), "draws", gn_json_make_count(c->draws), "shadow_draws",
         gn_json_make_count(c->shadow_draws), "programs", gn_json_make_count(c->programs), "culled",
@@ -298,7 +299,8 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
         gn_json_make_count(c->vertex_bytes), "index_bytes", gn_json_make_count(c->index_bytes),
         "texture_bytes", gn_json_make_count(c->texture_bytes), "map_bytes",
         gn_json_make_count(c->map_bytes), "target_bytes", gn_json_make_count(c->target_bytes),
-        "memory_bytes", gn_json_make_count(s->memory.bytes));
+        "memory_bytes", gn_json_make_count(s->memory.bytes), "loading_bytes",
+        gn_json_make_count(s->memory.loading_bytes));
     json_object_set_new(all, "cost", cost);
     json_object_set_new(all, "limits", gn_json_make_text(in->limits));
     json_object_set_new(all, "missing", gn_json_make_text(s->missing));

@@ -90,6 +90,7 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
     }
     done = done && !g->failed;
     holder->scene.memory.bytes = holder->arena.used + sizeof *holder;
+    holder->scene.memory.loading_bytes = g->memory.most_bytes + sizeof *holder;
     for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);
     json_decref(g->file.json);
     gn_arena_finish(&g->memory.step);

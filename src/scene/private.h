@@ -114,6 +114,7 @@ struct gn_gltf_memory {
     struct gn_arena step; /* reset for each geometry, picture and animation */
     size_t other_bytes;   /* an estimate of what lies outside the arenas: files, JSON, and what the
                              GPU will have of pictures, which on a board is the same memory */
+    size_t most_bytes;    /* of all these at any time */
 };
 struct gn_gltf_file { /* what the file declares, by its own numbers */
     json_t *json;

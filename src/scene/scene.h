@@ -266,8 +266,10 @@ struct gn_scene_added {        /* by the loader, as the last one, because the fi
     bool light, camera, floor; /* the floor: an item whose material is a shadow catcher */
 };
 struct gn_scene_memory {
-    size_t bytes; /* of the scene */
-    void *arena;  /* private */
+    size_t bytes;         /* of the scene */
+    size_t loading_bytes; /* at most while it was loaded: with the file and what the GPU will have
+                             of its pictures; what memory_mb limits */
+    void *arena;          /* private */
 };
 
 /* World space has its origin where the file has this point: 0, unless all is far from the file's
