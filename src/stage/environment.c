@@ -1,6 +1,5 @@
 #include "stage/environment.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,85 +13,33 @@
 #include "core/embedded.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "stage/kept.h"
 #include "stage/lights.h"
 
 enum {
     FILE_MB = 256, /* of a Radiance file */
-    KEPT_MAX = 16, /* files in the cache */
     THREADS = 2,
     OPEN_MAX = 16, /* environments of all modes */
 };
 
-/* ---- kept files: named by the content that they were made of ---- */
+/* ---- kept files ---- */
 
-static const char kept_prefix[] = "environment-", kept_suffix[] = ".env";
+static const struct gn_kept_kind kept_kind = {.prefix = "environment-",
+                                              .suffix = ".env",
+                                              .files_max = 16,
+                                              .bytes_max = GN_ENVIRONMENT_FILE_BYTES};
 
-bool gn_stage_cache_folder(char *out, size_t size) {
-    const char *own = getenv("CACHE_DIRECTORY"), *base = getenv("XDG_CACHE_HOME"),
-               *home = getenv("HOME");
-    int length = -1;
-    if (own && own[0] == '/') /* systemd's; the first of several */
-        length = snprintf(out, size, "%.*s", (int)strcspn(own, ":"), own);
-    else if (base && base[0] == '/')
-        length = snprintf(out, size, "%s/gnomon", base);
-    else if (home && home[0] == '/')
-        length = snprintf(out, size, "%s/.cache/gnomon", home);
-    return length > 0 && (size_t)length < size;
-}
-
-static bool is_kept_name(const char *name) {
-    const size_t length = strlen(name), suffix = sizeof kept_suffix - 1;
-    return strncmp(name, kept_prefix, sizeof kept_prefix - 1) == 0 && length > suffix &&
-           strcmp(name + length - suffix, kept_suffix) == 0;
-}
-
-/* Removes the oldest kept files until there are few enough. */
-static void bound_cache(const char *folder) {
-    for (;;) {
-        char path[4096], oldest[4096] = "";
-        struct timespec when = {0};
-        int count = 0;
-        DIR *dir = opendir(folder);
-        if (!dir) return;
-        for (struct dirent *entry; (entry = readdir(dir));) {
-            struct stat info;
-            if (!is_kept_name(entry->d_name)) continue;
-            const int length = snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-            if (length >= (int)sizeof path || lstat(path, &info) < 0 || !S_ISREG(info.st_mode))
-                continue;
-            const bool older =
-                info.st_mtim.tv_sec < when.tv_sec ||
-                (info.st_mtim.tv_sec == when.tv_sec && info.st_mtim.tv_nsec < when.tv_nsec);
-            if (count++ > 0 && !older) continue;
-            when = info.st_mtim;
-            memcpy(oldest, path, sizeof oldest);
-        }
-        closedir(dir);
-        if (count <= KEPT_MAX || unlink(oldest) < 0) return;
-    }
-}
-
-/* Fails silently: what cannot be kept is made again. */
-static void keep_environment(const char *folder, const char *path,
-                             const struct gn_environment *environment) {
-    struct gn_err unused = {0};
-    char parent[4096];
+static void keep_environment(const char *path, const struct gn_environment *environment) {
     uint8_t *bytes = gn_xalloc(1, GN_ENVIRONMENT_FILE_BYTES);
     gn_environment_write(environment, bytes);
-    snprintf(parent, sizeof parent, "%s", folder);
-    char *slash = strrchr(parent, '/');
-    if (slash && slash > parent) *slash = '\0';
-    mkdir(parent, 0700);
-    mkdir(folder, 0700);
-    if (gn_file_replace(path, bytes, GN_ENVIRONMENT_FILE_BYTES, &unused)) bound_cache(folder);
+    gn_kept_write(&kept_kind, path, bytes, GN_ENVIRONMENT_FILE_BYTES);
     free(bytes);
 }
 
 static bool load_kept(const char *path, struct gn_environment *out) {
-    struct gn_err unused = {0};
     struct gn_bytes kept = {0};
-    const bool ok = gn_file_read(path, GN_ENVIRONMENT_FILE_BYTES, &kept, &unused) &&
-                    gn_environment_read(kept.data, kept.size, out);
+    const bool ok =
+        gn_kept_read(&kept_kind, path, &kept) && gn_environment_read(kept.data, kept.size, out);
     gn_bytes_finish(&kept);
     return ok;
 }
@@ -114,13 +61,10 @@ static void print_progress(void *user, double share) {
 
 static bool read_file(const char *path, struct gn_environment *out, struct gn_err *err) {
     struct gn_bytes bytes = {0};
-    char folder[4000], kept[4096];
+    char kept[GN_KEPT_PATH];
     if (!gn_file_read(path, (size_t)FILE_MB << 20, &bytes, err)) return false;
     const uint64_t hash = gn_hash(GN_HASH_INIT, bytes.data, bytes.size);
-    const bool keeps = gn_stage_cache_folder(folder, sizeof folder);
-    if (keeps)
-        snprintf(kept, sizeof kept, "%s/%s%016llx-%zu%s", folder, kept_prefix,
-                 (unsigned long long)hash, bytes.size, kept_suffix);
+    const bool keeps = gn_kept_path(&kept_kind, hash, bytes.size, kept);
     bool ok = keeps && load_kept(kept, out);
     if (!ok) {
         struct reading reading = {.path = path, .begun_ns = gn_clock_monotonic_ns()};
@@ -130,7 +74,7 @@ static bool read_file(const char *path, struct gn_environment *out, struct gn_er
                                                  .user = &reading};
         ok = gn_environment_read_hdr(bytes.data, bytes.size, &work, out, err);
         if (!ok) gn_fail_prefix(err, "%s", path);
-        if (ok && keeps) keep_environment(folder, kept, out);
+        if (ok && keeps) keep_environment(kept, out);
     }
     gn_bytes_finish(&bytes);
     return ok;

@@ -1,5 +1,5 @@
 /* Environments by name: the studio inside the program, and Radiance files, which are prefiltered
- * once and kept in a folder for caches. */
+ * once and kept (kept.h). */
 #ifndef GN_STAGE_ENVIRONMENT_H
 #define GN_STAGE_ENVIRONMENT_H
 
@@ -14,8 +14,4 @@
  * replaces what was read of it. Not for several threads. */
 bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settings *settings,
                               const struct gn_scene *scene, struct gn_err *err);
-/* The folder of kept environments: $CACHE_DIRECTORY, else gnomon in $XDG_CACHE_HOME or in .cache of
- * $HOME; false: there is none. */
-bool gn_stage_cache_folder(char *out, size_t size);
-
 #endif

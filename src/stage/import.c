@@ -10,7 +10,9 @@
 #include <unistd.h>
 
 #include "core/child.h"
+#include "core/hash.h"
 #include "core/model.h"
+#include "stage/kept.h"
 
 enum {
     GRACE_S = 15, /* it times out by itself, so long before it is killed */
@@ -167,12 +169,72 @@ static char *run_import(const char *path, const struct gn_scene_limits *limits, 
     return glb;
 }
 
+/* ---- kept output ---- */
+
+/* Followed by a hash of it. */
+static const struct gn_kept_kind kept_kind = {
+    .prefix = "draco-", .suffix = ".glb", .files_max = 16, .bytes_max = 64 << 20};
+
+/* Of a .glb that names no other file, so that its bytes are all that its output is made of, and of
+ * the program that makes it. */
+static bool find_kept(const char *path, uint64_t file_mb, char out[GN_KEPT_PATH]) {
+    static const char uri[] = "\"uri\"", magic[] = "glTF";
+    char program[4096];
+    struct stat made_by;
+    struct gn_bytes file = {0};
+    struct gn_err unused = {0};
+    if (!find_program(program, sizeof program) || stat(program, &made_by) < 0) return false;
+    if (!gn_file_read(path, (size_t)file_mb << 20, &file, &unused)) return false;
+    const bool alone = file.size > sizeof magic && memcmp(file.data, magic, 4) == 0 &&
+                       !memmem(file.data, file.size, uri, sizeof uri - 1);
+    const int64_t of_program[] = {made_by.st_size, made_by.st_mtim.tv_sec, made_by.st_mtim.tv_nsec};
+    const uint64_t hash =
+        gn_hash(gn_hash(GN_HASH_INIT, of_program, sizeof of_program), file.data, file.size);
+    const bool ok = alone && gn_kept_path(&kept_kind, hash, file.size, out);
+    gn_bytes_finish(&file);
+    return ok;
+}
+
+static struct gn_scene *load_kept(const char *path, const char *kept,
+                                  const struct gn_scene_limits *limits,
+                                  struct gn_warnings *warnings) {
+    struct gn_bytes file = {0};
+    struct gn_err unused = {0};
+    struct gn_scene *scene = NULL;
+    uint64_t hash = 0;
+    if (!gn_kept_read(&kept_kind, kept, &file)) return NULL;
+    const size_t size = file.size - sizeof hash;
+    if (file.size > sizeof hash) memcpy(&hash, file.data + size, sizeof hash);
+    if (file.size > sizeof hash && hash == gn_hash(GN_HASH_INIT, file.data, size))
+        scene = gn_scene_load_converted(path, file.data, size, limits, warnings, &unused);
+    gn_bytes_finish(&file);
+    return scene;
+}
+
+static void keep(const char *kept, const char *glb, size_t size) {
+    const uint64_t hash = gn_hash(GN_HASH_INIT, glb, size);
+    uint8_t *bytes = size < kept_kind.bytes_max ? malloc(size + sizeof hash) : NULL;
+    if (!bytes) return;
+    memcpy(bytes, glb, size);
+    memcpy(bytes + size, &hash, sizeof hash);
+    gn_kept_write(&kept_kind, kept, bytes, size + sizeof hash);
+    free(bytes);
+}
+
+/* An output that warnings came with is not kept: they would not come again. */
 struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
                                 struct gn_warnings *warnings, struct gn_err *err) {
     size_t size = 0;
+    char kept[GN_KEPT_PATH];
+    const bool keeps = find_kept(path, gn_scene_limits_or_default(limits).file_mb, kept);
+    struct gn_scene *scene = keeps ? load_kept(path, kept, limits, warnings) : NULL;
+    if (scene) return scene;
+    const int warned = warnings ? warnings->count + warnings->dropped : 0;
     char *glb = run_import(path, limits, &size, warnings, err);
     if (!glb) return NULL;
-    struct gn_scene *scene = gn_scene_load_converted(path, glb, size, limits, warnings, err);
+    const bool silent = warnings && warnings->count + warnings->dropped == warned;
+    scene = gn_scene_load_converted(path, glb, size, limits, warnings, err);
+    if (scene && keeps && silent) keep(kept, glb, size);
     munmap(glb, size);
     return scene;
 }

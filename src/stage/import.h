@@ -14,7 +14,8 @@ bool gn_import_wants(const char *path);
 bool gn_import_wants_refused(const char *path, const struct gn_scene_limits *limits);
 /* Runs gnomon-import on the file and loads its output. The program is searched beside our own, in
  * ../libexec from there, in PREFIX/libexec and PREFIX/bin, and in PATH. Its warnings become ours;
- * if it crashes, runs out of time or memory, the import fails. Leaves no file on disk. */
+ * if it crashes, runs out of time or memory, the import fails. What it makes of a .glb that names
+ * no other file is kept (kept.h), so that Draco's meshes are decompressed once. */
 struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *limits,
                                 struct gn_warnings *warnings, struct gn_err *err);
 /* The same, but the bytes of the .glb, which gn_bytes_finish() frees. */

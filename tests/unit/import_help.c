@@ -114,5 +114,7 @@ int help_import_run(const struct CMUnitTest *tests, size_t count) {
         puts("gnomon-import was not built: it needs libassimp-dev (make deps)");
         return 77;
     }
+    setenv("XDG_CACHE_HOME", "/dev/null", 1); /* the user's own is no test's */
+    unsetenv("CACHE_DIRECTORY");
     return _cmocka_run_group_tests("import", tests, count, enter, leave);
 }

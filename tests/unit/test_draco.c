@@ -2,9 +2,12 @@
  * where that program was not built. */
 #include "check.h"
 
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "draco_help.h"
 #include "import_help.h"
@@ -126,6 +129,112 @@ static void test_bad_data_is_refused_by_one_line(void **state) {
     gn_maker_finish(&maker);
 }
 
+/* ---- what is kept ---- */
+
+static char kept_path[600];
+
+/* How many files are kept; kept_path becomes that of one. */
+static int count_kept(void) {
+    char pattern[300];
+    glob_t found;
+    snprintf(pattern, sizeof pattern, "%s/cache/gnomon/draco-*.glb", help_import_folder());
+    const int status = glob(pattern, 0, NULL, &found);
+    const int count = status == 0 ? (int)found.gl_pathc : 0;
+    if (count) snprintf(kept_path, sizeof kept_path, "%s", found.gl_pathv[0]);
+    if (status == 0) globfree(&found);
+    return count;
+}
+
+/* Its nodes tell two scenes apart. */
+static void put_square(const char *name, const char *nodes) {
+    gn_maker_init(&maker);
+    gn_maker_draco(&maker, true);
+    gn_maker_set(&maker, "nodes", nodes);
+    put_glb(name);
+}
+
+static uint32_t nodes_of(const char *name) {
+    struct gn_err err = {0};
+    struct gn_scene *scene = read_scene(name, &err);
+    if (!scene) fail_msg("%s", err.text);
+    const uint32_t count = scene->node_count;
+    gn_scene_destroy(scene);
+    return count;
+}
+
+static void begin_cache(const char *folder) {
+    char path[300];
+    snprintf(path, sizeof path, "%s%s", folder ? help_import_folder() : "",
+             folder ? folder : "/dev/null");
+    setenv("XDG_CACHE_HOME", path, 1);
+    unsetenv("CACHE_DIRECTORY");
+}
+
+static void test_an_output_is_kept_by_the_content_of_its_file(void **state) {
+    (void)state;
+    begin_cache("/cache");
+    put_square("one.glb", "[{'mesh':0}]");
+    const uint32_t one = nodes_of("one.glb");
+    assert_int_equal(count_kept(), 1);
+    char of_one[600];
+    snprintf(of_one, sizeof of_one, "%s", kept_path);
+    put_square("two.glb", "[{'mesh':0},{},{}]");
+    const uint32_t two = nodes_of("two.glb");
+    assert_int_equal(two, one + 2);
+    assert_int_equal(count_kept(), 2);
+    nodes_of("two.glb");
+    assert_int_equal(count_kept(), 2);
+
+    /* what is read is the kept file: here that of another */
+    glob_t found;
+    char pattern[300];
+    snprintf(pattern, sizeof pattern, "%s/cache/gnomon/draco-*.glb", help_import_folder());
+    assert_int_equal(glob(pattern, 0, NULL, &found), 0);
+    const char *of_two = found.gl_pathv[strcmp(found.gl_pathv[0], of_one) == 0];
+    assert_int_equal(rename(of_two, of_one), 0);
+    globfree(&found);
+    assert_int_equal(nodes_of("one.glb"), two);
+}
+
+static void test_a_damaged_kept_file_is_made_again(void **state) {
+    (void)state;
+    begin_cache("/cache");
+    put_square("three.glb", "[{'mesh':0},{},{},{}]");
+    while (count_kept()) remove(kept_path);
+    const uint32_t nodes = nodes_of("three.glb");
+    assert_int_equal(count_kept(), 1);
+    struct stat info;
+    assert_int_equal(stat(kept_path, &info), 0);
+    for (long at = 0; at < info.st_size; at += 97) {
+        FILE *file = fopen(kept_path, "r+b");
+        fseek(file, at, SEEK_SET);
+        const int byte = fgetc(file);
+        fseek(file, at, SEEK_SET);
+        fputc(byte ^ 1, file);
+        fclose(file);
+        assert_int_equal(nodes_of("three.glb"), nodes);
+    }
+    for (int i = 0; i < 12; i += 4) {
+        assert_int_equal(truncate(kept_path, i), 0);
+        assert_int_equal(nodes_of("three.glb"), nodes);
+    }
+}
+
+static void test_without_a_folder_nothing_is_kept(void **state) {
+    (void)state;
+    begin_cache(NULL);
+    put_square("four.glb", "[{'mesh':0}]");
+    nodes_of("four.glb");
+    begin_cache("/cache");
+    while (count_kept()) remove(kept_path);
+    gn_maker_init(&maker); /* another file may change what this one shows */
+    gn_maker_draco(&maker, true);
+    gn_maker_set(&maker, "images", "[{'uri':'absent.png'}]");
+    put_glb("five.glb");
+    nodes_of("five.glb");
+    assert_int_equal(count_kept(), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_glb_that_requires_draco_is_shown),
@@ -133,6 +242,9 @@ int main(void) {
         cmocka_unit_test(test_a_gltf_with_a_data_uri),
         cmocka_unit_test(test_a_gltf_beside_its_buffer_and_picture),
         cmocka_unit_test(test_bad_data_is_refused_by_one_line),
+        cmocka_unit_test(test_an_output_is_kept_by_the_content_of_its_file),
+        cmocka_unit_test(test_a_damaged_kept_file_is_made_again),
+        cmocka_unit_test(test_without_a_folder_nothing_is_kept),
     };
     return help_import_run(tests, sizeof tests / sizeof tests[0]);
 }
