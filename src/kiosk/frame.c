@@ -15,7 +15,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     if (view.dark && s->drawn.dark) return false; /* black stays black */
     const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.fade < 1 ||
-                       (!view.stands && (view.clip >= 0 || s->stage.pose.animated ||
+                       (!view.stands && (view.clip >= 0 || !gn_pose_stands(&s->stage.pose) ||
                                          s->stage.settings->scene.turntable_deg_s != 0.0));
     const struct gn_kiosk_view *drawn = &s->drawn;
     const bool differs =

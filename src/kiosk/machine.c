@@ -40,6 +40,13 @@ static void pass_time(struct gn_kiosk *s, int64_t ns) {
     s->scene_ns += ns;
 }
 
+/* Where all stands no frame passes time. */
+static void pass_until(struct gn_kiosk *s, int64_t time_ns) {
+    if (s->paused || s->seen_ns == 0 || time_ns <= s->seen_ns) return;
+    pass_time(s, time_ns - s->seen_ns);
+    s->seen_ns = time_ns;
+}
+
 /* ---- what is wanted ---- */
 
 /* The next mode that has not failed; if all have, the same one. */
@@ -126,10 +133,7 @@ static void act_play(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     (void)rules;
     if (e->clip < 0) return;
     if (s->paused) toggle_pause(s, e->time_ns);
-    if (s->seen_ns != 0 && e->time_ns > s->seen_ns) { /* where all stands no frame passes time */
-        pass_time(s, e->time_ns - s->seen_ns);
-        s->seen_ns = e->time_ns;
-    }
+    pass_until(s, e->time_ns);
     s->play = (struct gn_kiosk_play){.clip_plus_1 = e->clip + 1, .length_ns = e->clip_ns};
 }
 
@@ -220,6 +224,9 @@ static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     if (e->scene != before || (enters && rules->own_camera >> e->mode & 1)) s->camera = 0;
     s->fade_begun_ns = rules->fade_ns > 0 ? e->time_ns : 0;
     s->shown = s->wanted;
+    const bool restarts = rules->restarts >> e->mode & 1;
+    if (restarts) pass_until(s, e->time_ns);
+    s->clips_begun_ns = restarts ? s->scene_ns : 0;
     s->play = (struct gn_kiosk_play){0};
 }
 
@@ -284,6 +291,7 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
         .scene = gn_kiosk_scene(rules, &state->shown),
         .camera = state->camera,
         .time_ns = then.scene_ns,
+        .clips_begun_ns = state->clips_begun_ns,
         .clip = then.play.clip_plus_1 - 1,
         .clip_ns = then.play.time_ns,
         .stands = state->paused,

@@ -19,6 +19,7 @@ struct gn_kiosk_rules {                    /* zero means the default written bes
     int first_mode;                        /* 0; of GN_IDLE_FIRST */
     uint8_t own_scene[GN_KIOSK_MODES_MAX]; /* 1 + the scene that the mode itself names; 0: none */
     uint32_t own_camera; /* bits 1 << mode: the mode names a camera, which is used on entering */
+    uint32_t restarts;   /* bits 1 << mode: entering it its clips begin */
     enum gn_idle idle;
     int64_t idle_after_ns; /* 0: never */
     int64_t fade_ns;       /* how long, from the old picture to the new; 0: at once */
@@ -50,7 +51,8 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     bool asleep, woken; /* outside of the hours; a press has lit the screen for a while */
     int speed;          /* logarithm to base 2 of the scene's speed, at most GN_KIOSK_SPEED_MOST */
     int64_t scene_ns;   /* the scene's time in the last frame */
-    int64_t seen_ns;    /* when that frame is on the screen; 0: no frame yet */
+    int64_t clips_begun_ns;   /* the scene's time at which the clips of the shown mode began */
+    int64_t seen_ns;          /* when that frame is on the screen; 0: no frame yet */
     int64_t fade_begun_ns;    /* monotonic; 0: no fade */
     int64_t caption_begun_ns; /* monotonic */
     enum gn_kiosk_caption caption;
@@ -101,6 +103,7 @@ struct gn_kiosk_view {
     int mode, scene;
     uint32_t camera;
     int64_t time_ns; /* of the scene */
+    int64_t clips_begun_ns;
     int clip;        /* that plays once; -1: none */
     int64_t clip_ns; /* its time */
     bool stands;     /* paused */

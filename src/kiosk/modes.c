@@ -66,6 +66,9 @@ void gn_show_take_rules(struct gn_show *s) {
     s->rules.fade_ns = o->kiosk.fade_ns;
     s->rules.caption_ns = o->kiosk.captions ? o->kiosk.caption_ns : 0;
     s->rules.names_first = s->config.options->is_lesson;
+    s->rules.restarts = 0;
+    for (int i = 0; i < s->modes.count; i++)
+        if (gn_show_settings(s, i)->scene.animation_restart) s->rules.restarts |= 1u << i;
 }
 
 void gn_show_list_modes(struct gn_show *s) {
@@ -106,13 +109,29 @@ bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
     return true;
 }
 
+/* They are not where they would be had the pose gone on. */
+static bool clips_jump(const struct gn_pose *pose, const struct gn_stage_look *look, int over,
+                       const struct gn_kiosk_view *view) {
+    const bool replays = over >= 0 && view->clip_ns < pose->over_ns;
+    return look->clips != pose->clips || over != pose->over || replays ||
+           look->run.turns != pose->run.turns || look->run.speed_less_1 != pose->run.speed_less_1 ||
+           look->run.start_ns != pose->run.start_ns || view->clips_begun_ns != pose->begun_ns;
+}
+
 /* From what is shown to what these clips make of it, in [kiosk] clip_fade. */
-static void choose_clips(struct gn_show *s, int clips, int over, int64_t seen_ns) {
+static void choose_clips(struct gn_show *s, const struct gn_kiosk_view *view, int64_t seen_ns) {
+    const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_pose *pose = &s->stage.pose;
+    const bool plays =
+        view->clip >= 0 && (uint32_t)view->clip < s->stage.scene->animation.clip_count;
+    const int clips = look->clips, over = plays ? view->clip : -1;
     const int64_t fade_ns = s->stage.settings->kiosk.clip_fade_ns;
     const bool was_seen = s->clips_of == s->stage.scene && s->counts.frames > 0;
     s->clips_of = s->stage.scene;
-    if (clips != pose->clips || over != pose->over) {
+    const bool jumps = clips_jump(pose, look, over, view);
+    pose->run = look->run;
+    pose->begun_ns = view->clips_begun_ns;
+    if (jumps) {
         s->clips_begun_ns = seen_ns;
         if (fade_ns > 0 && was_seen)
             gn_pose_choose_fading(pose, clips, over);
@@ -126,6 +145,7 @@ static void choose_clips(struct gn_show *s, int clips, int over, int64_t seen_ns
         else
             pose->fade = share > 0 ? (float)share : 0;
     }
+    pose->over_ns = view->clip_ns;
 }
 
 void gn_show_enter(struct gn_show *s) {
@@ -135,7 +155,9 @@ void gn_show_enter(struct gn_show *s) {
     s->stage.frame_opts = look->frame_opts;
     if (look->frame_opts.view.camera == before.view.camera)
         s->stage.frame_opts.view.orbit = before.view.orbit;
-    choose_clips(s, look->clips, s->stage.pose.over, gn_loop_now_ns(s->loop));
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
+    const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, now_ns);
+    choose_clips(s, &view, now_ns);
     gn_pose_choose_variant(&s->stage.pose, look->variant);
     s->ahead.keeps = s->ahead.idle = false;
     s->changed = true;
@@ -144,12 +166,7 @@ void gn_show_enter(struct gn_show *s) {
 void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view, int64_t seen_ns) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_frame_opts *f = &s->stage.frame_opts;
-    struct gn_pose *pose = &s->stage.pose;
-    const bool plays =
-        view->clip >= 0 && (uint32_t)view->clip < s->stage.scene->animation.clip_count;
-    const int over = plays ? view->clip : -1;
-    choose_clips(s, look->clips, over, seen_ns);
-    pose->over_ns = view->clip_ns;
+    choose_clips(s, view, seen_ns);
     const uint32_t camera =
         ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;
     if ((uint32_t)f->view.camera != camera) f->view.orbit = (struct gn_orbit){0};

@@ -83,6 +83,8 @@ struct gn_scene_settings {
     bool no_animation;
     int animation_turns; /* enum gn_pose_turns */
     double animation_speed;
+    int64_t animation_start_ns;
+    bool animation_restart;
     int64_t time_ns;
     double turntable_deg_s;
     double floor_m; /* y of the shadow catcher; NAN: automatic, INFINITY: none */

@@ -110,7 +110,8 @@ static void place_camera(const struct gn_framing_opts *opts, struct gn_framing_f
     if (made) set_planes(fit, axes[2], framing->distance_m, framing->eye_ws, c);
 }
 
-void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
+/* Around what those clips move. */
+static void build_for(const struct gn_pose *pose, int clips, uint32_t camera,
                       const struct gn_framing_opts *opts, struct gn_framing *framing) {
     const struct gn_scene *scene = pose->scene;
     const bool made = is_made(scene, camera), placed = opts->given & GN_FRAMING_PLACE;
@@ -122,9 +123,8 @@ void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
     if (opts->given & GN_FRAMING_FOV && !c->orthographic) c->yfov_rad = opts->yfov_rad;
     if (c->aspect > aspect) c->yfov_rad = 2 * atanf(tanf(c->yfov_rad / 2) * c->aspect / aspect);
     if (!made && !placed) return;
-    struct gn_framing_fit fit = {.extent = &scene->extents[pose->clips - GN_POSE_NONE],
-                                 .aspect = aspect,
-                                 .turns = opts->turns};
+    struct gn_framing_fit fit = {
+        .extent = &scene->extents[clips - GN_POSE_NONE], .aspect = aspect, .turns = opts->turns};
     vec3 axes[3];
     vec4 *view = framing->view_from_world;
     for (int row = 0; row < 3; row++)
@@ -138,4 +138,28 @@ void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
         for (int k = 0; k < 3; k++) view[k][row] = axes[row][k];
         view[3][row] = -glm_vec3_dot(axes[row], framing->eye_ws);
     }
+}
+
+/* From one framing to another, whose axes are the same. */
+static void mix_framings(const struct gn_framing *from, float share, struct gn_framing *framing) {
+    struct gn_camera *c = &framing->camera;
+    vec4 *view = framing->view_from_world;
+    glm_vec3_lerp((float *)from->eye_ws, framing->eye_ws, share, framing->eye_ws);
+    framing->distance_m = glm_lerp(from->distance_m, framing->distance_m, share);
+    c->near_m = fminf(from->camera.near_m, c->near_m);
+    c->far_m = fmaxf(from->camera.far_m, c->far_m);
+    for (int row = 0; row < 3; row++) {
+        const vec3 axis = {view[0][row], view[1][row], view[2][row]};
+        view[3][row] = -glm_vec3_dot((float *)axis, framing->eye_ws);
+    }
+}
+
+void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
+                      const struct gn_framing_opts *opts, struct gn_framing *framing) {
+    build_for(pose, pose->clips, camera, opts, framing);
+    if (pose->fade >= 1 || pose->faded_clips == pose->clips || !is_made(pose->scene, camera))
+        return;
+    struct gn_framing from = *framing;
+    build_for(pose, pose->faded_clips, camera, opts, &from);
+    mix_framings(&from, glm_smoothstep(0, 1, pose->fade), framing);
 }

@@ -147,6 +147,7 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
     const struct gn_scene *scene = pose->scene;
     if (fades) gn_fade_keep(&memory->fade, pose, memory->local, &memory->deformer);
     pose->fade = fades ? 0 : 1;
+    pose->faded_clips = pose->clips;
     pose->clips = clips;
     pose->over = over;
     pose->over_ns = 0;
@@ -202,22 +203,46 @@ void gn_pose_choose_fading(struct gn_pose *pose, int clips, int over) {
     choose(pose, clips, over, true);
 }
 
+/* How far a clip has gone after that time, at its speed: whole periods less where that is too far
+ * for an integer, or the end if it has no period (0). */
+static int64_t run_ns(const struct gn_pose_run *run, int64_t period_ns, int64_t time_ns) {
+    if (run->speed_less_1 == 0) return time_ns;
+    const double there = (double)time_ns * (1 + run->speed_less_1);
+    if (fabs(there) < 9e18) return (int64_t)there;
+    if (period_ns > 0) return (int64_t)fmod(there, (double)period_ns);
+    return there < 0 ? INT64_MIN : INT64_MAX;
+}
+
 /* In integers until it is small: exact after years. Other speeds than 1 are so to 2^-53. */
 int64_t gn_pose_clip_ns(const struct gn_pose_run *run, int64_t length_ns, int64_t time_ns) {
     if (length_ns <= 0) return 0;
-    if (run->speed_less_1 != 0) {
-        const double there = (double)time_ns * (1 + run->speed_less_1);
-        const bool fits = fabs(there) < 9e18;
-        if (!fits && run->turns == GN_POSE_ONCE) return there < 0 ? 0 : length_ns;
-        time_ns = fits ? (int64_t)there : 0;
+    if (run->turns == GN_POSE_ONCE) {
+        const int64_t ns = run_ns(run, 0, time_ns);
+        if (ns >= length_ns || ns >= length_ns - run->start_ns) return length_ns;
+        return ns + run->start_ns > 0 ? ns + run->start_ns : 0;
     }
-    if (run->turns == GN_POSE_ONCE)
-        return time_ns < 0 ? 0 : time_ns < length_ns ? time_ns : length_ns;
     const int64_t period_ns =
         run->turns == GN_POSE_PING_PONG && length_ns < INT64_MAX / 2 ? 2 * length_ns : length_ns;
-    int64_t local_ns = time_ns % period_ns;
-    if (local_ns < 0) local_ns += period_ns;
+    const int64_t parts[] = {run_ns(run, period_ns, time_ns) % period_ns,
+                             run->start_ns % period_ns};
+    uint64_t sum_ns = 0;
+    for (int i = 0; i < 2; i++)
+        sum_ns += (uint64_t)(parts[i] < 0 ? parts[i] + period_ns : parts[i]);
+    const int64_t local_ns = (int64_t)(sum_ns % (uint64_t)period_ns);
     return local_ns > length_ns ? period_ns - local_ns : local_ns;
+}
+
+bool gn_pose_stands(const struct gn_pose *pose) {
+    const struct gn_pose_run *run = &pose->run;
+    if (pose->fade < 1 || pose->over >= 0) return false;
+    for (uint32_t c = 0; c < pose->scene->animation.clip_count; c++) {
+        const int64_t ns = pose->scene->animation.clips[c].duration_ns;
+        if (clip_on(pose, c) && run->speed_less_1 != -1 && ns > 0 &&
+            (run->turns != GN_POSE_ONCE ||
+             gn_pose_clip_ns(run, ns, pose->time_ns - pose->begun_ns) < ns))
+            return false;
+    }
+    return true;
 }
 
 static void step_clip(struct gn_pose *pose, const struct gn_clip *clip, int64_t local_ns) {
@@ -245,7 +270,8 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     for (uint32_t c = 0; c < animation->clip_count; c++)
         if (clip_on(pose, c) && pose->over != (int)c)
             step_clip(pose, &animation->clips[c],
-                      gn_pose_clip_ns(&pose->run, animation->clips[c].duration_ns, time_ns));
+                      gn_pose_clip_ns(&pose->run, animation->clips[c].duration_ns,
+                                      time_ns - pose->begun_ns));
     static const struct gn_pose_run loop = {0};
     if (pose->over >= 0)
         step_clip(pose, &animation->clips[pose->over],

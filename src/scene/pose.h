@@ -25,6 +25,7 @@ struct gn_pose_item {
 struct gn_pose_run {
     enum gn_pose_turns { GN_POSE_LOOP, GN_POSE_ONCE, GN_POSE_PING_PONG } turns;
     double speed_less_1; /* 0: 1; -1: they stand */
+    int64_t start_ns;    /* the time within each clip at time 0; not negative */
 };
 /* The time within a clip of that length, 0 to its end, at a time of the scene, which may be
  * negative. */
@@ -37,9 +38,11 @@ struct gn_pose {
     int over;  /* number of a clip that plays over those, at over_ns; -1: none */
     int64_t over_ns;
     struct gn_pose_run run;
-    float fade;  /* share of the chosen clips, against what gn_pose_choose_fading() kept; 1: they
-                    alone */
-    int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
+    int64_t begun_ns; /* the scene's time that is 0 for the clips */
+    float fade; /* share of the chosen clips, against what gn_pose_choose_fading() kept; 1: they
+                   alone */
+    int faded_clips; /* those that it fades from */
+    int variant;     /* number of the variant of materials; GN_POSE_DEFAULT: none */
     int64_t time_ns;
     mat4 *world_from_node;      /* scene->node_count */
     struct gn_exact *exact;     /* the same, before the origin is moved; NULL: floats are enough */
@@ -70,6 +73,8 @@ void gn_pose_choose_variant(struct gn_pose *pose, int variant);
 /* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; nodes that
  * are not animated cost nothing. */
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns);
+/* Later times show the same as the last step did. */
+bool gn_pose_stands(const struct gn_pose *pose);
 void gn_pose_finish(struct gn_pose *pose);
 
 /* view_from_world of a camera at this pose, rigid (scale is dropped); eye_ws gets its position if

@@ -193,6 +193,7 @@ static void copy_pose(struct gn_rays *rays, const struct gn_pose *pose) {
     if (pose->over >= 0) gn_pose_choose_over(&rays->own_pose, pose->clips, pose->over);
     rays->own_pose.over_ns = pose->over_ns;
     rays->own_pose.run = pose->run;
+    rays->own_pose.begun_ns = pose->begun_ns;
     gn_pose_choose_variant(&rays->own_pose, pose->variant);
     gn_pose_step(&rays->own_pose, pose->time_ns);
     if (pose->aimed) gn_pose_aim(&rays->own_pose, pose->aim_ws);

@@ -224,6 +224,11 @@ static void set_framing(struct gn_framing_opts *framing, const struct gn_camera_
     framing->distance_max_m = isnan(s->distance_max_m) ? 0.0f : (float)s->distance_max_m;
 }
 
+static struct gn_pose_run run_of(const struct gn_scene_settings *s) {
+    return (struct gn_pose_run){(enum gn_pose_turns)s->animation_turns, s->animation_speed - 1,
+                                s->animation_start_ns};
+}
+
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err) {
@@ -232,6 +237,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (!choose_clips(o, scene, &look->clips, warnings, err) ||
         !choose_variant(o, scene, &look->variant, warnings, err))
         return false;
+    look->run = run_of(&o->scene);
     if (of_light && (o->render.light < 0 || (uint32_t)o->render.light >= scene->light_count))
         return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
                              gn_settings_label(o, render.light), o->render.light,
@@ -257,10 +263,6 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
 }
 
-static struct gn_pose_run run_of(const struct gn_scene_settings *s) {
-    return (struct gn_pose_run){(enum gn_pose_turns)s->animation_turns, s->animation_speed - 1};
-}
-
 bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
                    struct gn_scene *scene, struct gn_warnings *warnings, struct gn_err *err) {
     *stage = (struct gn_stage){.settings = settings, .scene = scene};
@@ -269,7 +271,7 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     stage->frame_opts = look.frame_opts;
     gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_choose_variant(&stage->pose, look.variant);
-    stage->pose.run = run_of(&settings->scene);
+    stage->pose.run = look.run;
     gn_pose_step(&stage->pose, settings->scene.time_ns);
     gn_stage_aim(&stage->pose, &stage->frame_opts, settings);
     return true;
@@ -349,7 +351,6 @@ uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t
 }
 
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
-    stage->pose.run = run_of(&stage->settings->scene);
     gn_pose_step(&stage->pose, time_ns);
     double turned_deg =
         fmod(stage->settings->scene.turntable_deg_s * ((double)time_ns * 1e-9), 360.0);

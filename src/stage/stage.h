@@ -12,7 +12,8 @@
 /* How the settings draw a scene. */
 struct gn_stage_look {
     struct gn_frame_opts frame_opts;
-    int clips;   /* as gn_pose_init() wants them */
+    int clips; /* as gn_pose_init() wants them */
+    struct gn_pose_run run;
     int variant; /* as gn_pose_choose_variant() wants it */
 };
 struct gn_rays; /* stage/rays.h */

@@ -178,6 +178,35 @@ static void frame_at(struct gn_scene *scene, const struct gn_framing_opts *opts,
     gn_pose_finish(&pose);
 }
 
+/* The camera that was made goes with the fade, from what frames a still scene to what frames its
+ * clip. */
+static void test_a_fade_between_clips_takes_the_camera_along(void **state) {
+    (void)state;
+    const float times[] = {0, 1, 2}, moves[] = {0, 0, 0, 0, 30, 12, 0, 0, 0};
+    add_clip(add_box("{'mesh':1}"), "translation", 3, times, moves);
+    struct gn_scene *scene = load();
+    const struct gn_framing_opts opts = {.aspect = 1};
+    const float fades[] = {0, .25f, .5f, .75f, 1};
+    float away[5];
+    struct gn_pose pose;
+    struct gn_framing still, framing;
+    gn_pose_init(&pose, scene, GN_POSE_NONE);
+    gn_framing_build(&pose, scene->camera_count - 1, &opts, &still);
+    gn_pose_choose_fading(&pose, 0, -1);
+    for (int i = 0; i < 5; i++) {
+        pose.fade = fades[i];
+        gn_framing_build(&pose, scene->camera_count - 1, &opts, &framing);
+        away[i] = glm_vec3_distance(framing.eye_ws, still.eye_ws);
+        vec3 back; /* the view is that of the eye */
+        glm_mat4_mulv3(framing.view_from_world, framing.eye_ws, 1, back);
+        assert_true(glm_vec3_norm(back) < 1e-4f);
+    }
+    assert_true(away[0] < 1e-5f && away[4] > 1);
+    for (int i = 1; i < 5; i++) assert_true(away[i] > away[i - 1]);
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+}
+
 static void assert_at(const struct gn_framing *framing, float x, float y, float z) {
     const float expected[] = {x, y, z};
     for (int k = 0; k < 3; k++)
@@ -251,6 +280,7 @@ int main(void) {
         cmocka_unit_test_setup(test_a_scene_with_nothing_to_see_has_a_camera_too, setup),
         cmocka_unit_test_setup(test_a_given_place_takes_that_of_the_camera, setup),
         cmocka_unit_test_setup(test_an_added_camera_still_shows_all_from_a_given_side, setup),
+        cmocka_unit_test_setup(test_a_fade_between_clips_takes_the_camera_along, setup),
         cmocka_unit_test_setup(test_a_narrow_picture_keeps_the_horizontal_angle, setup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

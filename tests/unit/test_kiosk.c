@@ -166,6 +166,26 @@ static void a_press_begins_the_clip_anew_or_is_ignored(void **state) {
     assert_int_equal(gn_kiosk_step(&r, &s, &next).wanted.mode, 1);
 }
 
+static void a_mode_may_begin_its_clips_anew(void **state) {
+    (void)state;
+    struct gn_kiosk_rules r = three;
+    r.restarts = 1u << 1;
+    struct gn_kiosk s = on(&r, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 10 * S);
+    s = on(&r, s, GN_KIOSK_FRAME, 12 * S);
+    assert_int_equal(gn_kiosk_view(&r, &s, 12 * S).clips_begun_ns, 0);
+    s = ready(&r, act(&r, s, 13 * S, GN_ACTION_NEXT), 15 * S, 1, 0); /* no frame since 12 s */
+    struct gn_kiosk_view view = gn_kiosk_view(&r, &s, 16 * S);
+    assert_int_equal(view.clips_begun_ns, 5 * S);
+    assert_int_equal(view.time_ns, 6 * S);
+    s = on(&r, s, GN_KIOSK_FRAME, 20 * S);
+    s = ready(&r, act(&r, s, 20 * S, GN_ACTION_NEXT), 20 * S, 2, 0);
+    assert_int_equal(gn_kiosk_view(&r, &s, 20 * S).clips_begun_ns, 0); /* as if it never was */
+    s = act(&r, s, 21 * S, GN_ACTION_PAUSE);
+    s = ready(&r, act(&r, s, 25 * S, GN_ACTION_PREV), 30 * S, 1, 0);
+    view = gn_kiosk_view(&r, &s, 40 * S); /* they stand at their start */
+    assert_true(view.stands && view.time_ns == view.clips_begun_ns);
+}
+
 static void another_mode_ends_a_clip_and_a_pause_holds_it(void **state) {
     (void)state;
     struct gn_kiosk s = on(&three, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 10 * S);
@@ -434,6 +454,7 @@ int main(void) {
         cmocka_unit_test(a_clip_plays_once_and_the_scene_goes_on_where_it_was),
         cmocka_unit_test(a_clip_begins_at_its_start_after_a_still_hour),
         cmocka_unit_test(a_press_begins_the_clip_anew_or_is_ignored),
+        cmocka_unit_test(a_mode_may_begin_its_clips_anew),
         cmocka_unit_test(another_mode_ends_a_clip_and_a_pause_holds_it),
         cmocka_unit_test(the_idle_timeout_begins_at_the_end_of_a_clip),
         cmocka_unit_test(blank_swallows_the_first_action),

@@ -172,25 +172,38 @@ static void test_turns_and_speed_of_clips(void **state) {
         struct gn_pose_run run;
         int64_t length_ns, time_ns, expected_ns;
     } cases[] = {
-        {{GN_POSE_LOOP, 0}, 2 * S, 5 * S, S},
-        {{GN_POSE_LOOP, 0}, 2 * S, 2 * S, 0},
-        {{GN_POSE_LOOP, 0}, 2 * S, -S / 2, 3 * S / 2},
-        {{GN_POSE_LOOP, 0}, 7 * S, years + 1, years % (7 * S) + 1},
-        {{GN_POSE_LOOP, 0}, 0, 5 * S, 0},
-        {{GN_POSE_LOOP, .5}, 2 * S, 3 * S, S / 2},
-        {{GN_POSE_LOOP, -1}, 2 * S, 3 * S, 0},
-        {{GN_POSE_LOOP, 99}, 2 * S, INT64_MAX, 0},
-        {{GN_POSE_ONCE, 0}, 2 * S, S, S},
-        {{GN_POSE_ONCE, 0}, 2 * S, 5 * S, 2 * S},
-        {{GN_POSE_ONCE, 0}, 2 * S, -S, 0},
-        {{GN_POSE_ONCE, 1}, 2 * S, S / 2, S},
-        {{GN_POSE_PING_PONG, 0}, 2 * S, S, S},
-        {{GN_POSE_PING_PONG, 0}, 2 * S, 2 * S, 2 * S},
-        {{GN_POSE_PING_PONG, 0}, 2 * S, 3 * S, S},
-        {{GN_POSE_PING_PONG, 0}, 2 * S, 4 * S, 0},
-        {{GN_POSE_PING_PONG, 0}, 2 * S, -S, S},
-        {{GN_POSE_PING_PONG, 0}, 2 * S, 9 * S, S},
-        {{GN_POSE_PING_PONG, 0}, INT64_MAX, 9 * S, 9 * S},
+        {{GN_POSE_LOOP, 0, 0}, 2 * S, 5 * S, S},
+        {{GN_POSE_LOOP, 0, 0}, 2 * S, 2 * S, 0},
+        {{GN_POSE_LOOP, 0, 0}, 2 * S, -S / 2, 3 * S / 2},
+        {{GN_POSE_LOOP, 0, 0}, 7 * S, years + 1, years % (7 * S) + 1},
+        {{GN_POSE_LOOP, 0, 0}, 0, 5 * S, 0},
+        {{GN_POSE_LOOP, .5, 0}, 2 * S, 3 * S, S / 2},
+        {{GN_POSE_LOOP, -1, 0}, 2 * S, 3 * S, 0},
+        {{GN_POSE_LOOP, 99, 0}, 2 * S, 3 * years / 10 + 2048000, 204800000}, /* 300 years on */
+        {{GN_POSE_LOOP, 99, 0}, 2 * S, -3 * years / 10 - 2048000, 2 * S - 204800000},
+        {{GN_POSE_ONCE, 99, 0}, 2 * S, 3 * years / 10, 2 * S},
+        {{GN_POSE_ONCE, 99, 0}, 2 * S, -3 * years / 10, 0},
+        {{GN_POSE_LOOP, 0, 3 * S / 2}, 2 * S, S, S / 2},
+        {{GN_POSE_LOOP, -1, 3 * S}, 2 * S, 7 * S, S},
+        {{GN_POSE_LOOP, 1, S}, 2 * S, S / 4, 3 * S / 2},
+        {{GN_POSE_LOOP, 0, S}, 2 * S, -S / 2, S / 2},
+        {{GN_POSE_LOOP, 0, INT64_MAX}, INT64_MAX, INT64_MAX - 1, INT64_MAX - 1},
+        {{GN_POSE_ONCE, 0, S}, 2 * S, S / 2, 3 * S / 2},
+        {{GN_POSE_ONCE, 0, 3 * S}, 2 * S, -2 * S, S},
+        {{GN_POSE_ONCE, 0, S}, 2 * S, INT64_MAX, 2 * S},
+        {{GN_POSE_ONCE, 0, S}, 2 * S, INT64_MIN, 0},
+        {{GN_POSE_PING_PONG, 0, 3 * S}, 2 * S, 0, S},
+        {{GN_POSE_ONCE, 0, 0}, 2 * S, S, S},
+        {{GN_POSE_ONCE, 0, 0}, 2 * S, 5 * S, 2 * S},
+        {{GN_POSE_ONCE, 0, 0}, 2 * S, -S, 0},
+        {{GN_POSE_ONCE, 1, 0}, 2 * S, S / 2, S},
+        {{GN_POSE_PING_PONG, 0, 0}, 2 * S, S, S},
+        {{GN_POSE_PING_PONG, 0, 0}, 2 * S, 2 * S, 2 * S},
+        {{GN_POSE_PING_PONG, 0, 0}, 2 * S, 3 * S, S},
+        {{GN_POSE_PING_PONG, 0, 0}, 2 * S, 4 * S, 0},
+        {{GN_POSE_PING_PONG, 0, 0}, 2 * S, -S, S},
+        {{GN_POSE_PING_PONG, 0, 0}, 2 * S, 9 * S, S},
+        {{GN_POSE_PING_PONG, 0, 0}, INT64_MAX, 9 * S, 9 * S},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         if (gn_pose_clip_ns(&cases[i].run, cases[i].length_ns, cases[i].time_ns) !=
@@ -198,9 +211,33 @@ static void test_turns_and_speed_of_clips(void **state) {
             fail_msg("case %zu", i);
     animate("translation", MOVE, "LINEAR");
     load(0);
-    pose.run = (struct gn_pose_run){GN_POSE_PING_PONG, 0};
+    pose.run = (struct gn_pose_run){.turns = GN_POSE_PING_PONG};
     gn_pose_step(&pose, 7 * S / 2); /* as at half a second */
     assert_true(pose.world_from_node[0][3][0] == 2);
+}
+
+/* Nothing has to be drawn again: at the end of a clip that plays once, and at no speed. */
+static void test_clips_that_stand(void **state) {
+    (void)state;
+    animate("translation", MOVE, "LINEAR");
+    animate("rotation", TURN, "LINEAR");
+    load(0);
+    gn_pose_step(&pose, 9 * GN_NS_PER_S);
+    assert_false(gn_pose_stands(&pose));
+    pose.run = (struct gn_pose_run){.turns = GN_POSE_ONCE};
+    gn_pose_step(&pose, 2 * GN_NS_PER_S - 1);
+    assert_false(gn_pose_stands(&pose));
+    gn_pose_step(&pose, 2 * GN_NS_PER_S);
+    assert_true(gn_pose_stands(&pose));
+    gn_pose_choose_fading(&pose, 0, -1);
+    gn_pose_step(&pose, 2 * GN_NS_PER_S);
+    assert_false(gn_pose_stands(&pose));
+    gn_pose_choose_over(&pose, 0, 1);
+    gn_pose_step(&pose, 2 * GN_NS_PER_S);
+    assert_false(gn_pose_stands(&pose));
+    gn_pose_choose(&pose, 0);
+    pose.run = (struct gn_pose_run){.speed_less_1 = -1};
+    assert_true(gn_pose_stands(&pose));
 }
 
 static float x_of(int node) { return pose.world_from_node[node][3][0]; }
@@ -433,6 +470,7 @@ int main(void) {
         TEST(test_clips),
         TEST(test_a_clip_over_others),
         TEST(test_turns_and_speed_of_clips),
+        TEST(test_clips_that_stand),
         TEST(test_a_fade_between_clips),
         TEST(test_items_follow_and_nothing_is_allocated),
         TEST(test_mirrored_and_invisible),
