@@ -1,7 +1,8 @@
 /* Valid files, broken at random in ways that a loader has to survive: numbers at the edges of their
  * types, missing keys, swapped types, deep nesting, flipped bytes, cut ends, wrong lengths, and
  * allocations that fail. What comes out is one line or a scene that holds; in time and within the
- * memory limit. The seed is fixed: a failure can be had again by its number.
+ * memory limit. Some of them are baked, too. The seed is fixed: a failure can be had again by its
+ * number.
  *
  *   test_scene_mutations [FIRST [COUNT]]    GN_FULL=1: 20,000; mutants that fail are left in
  * mutant-N.glb */
@@ -14,6 +15,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include "bake/bake.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "core/file.h"
@@ -21,7 +23,7 @@
 #include "seeds.h"
 #include "unit/scene_check.h"
 
-enum { MEMORY_MB = 128, SECONDS = 2 };
+enum { MEMORY_MB = 128, SECONDS = 2, BAKED_EVERY = 4 };
 
 /* ---- random numbers ---- */
 
@@ -265,6 +267,36 @@ static void fail(size_t number, const char *what, const struct gn_made *made) {
     failures++;
 }
 
+static int baked;
+
+/* What bake makes of a file that is shown is shown, too. */
+static void try_bake(size_t number, const struct gn_made *made, bool is_shown) {
+    const struct gn_scene_limits limits = {.memory_mb = MEMORY_MB, .file_mb = MEMORY_MB};
+    const struct gn_bake_opts opts = {.path = "m",
+                                      .limits = &limits,
+                                      .share = below(2) ? 1 : .5,
+                                      .texture_limit_px = GN_BAKE_TEXTURE_PX};
+    struct gn_bytes out = {0};
+    struct gn_bake_report report = {0};
+    struct gn_err err = {0}, why = {0};
+    const int64_t start_ns = gn_clock_process_cpu_ns();
+    const bool done = gn_bake(&opts, made->data, made->size, &out, &report, NULL, &err);
+    if (gn_clock_process_cpu_ns() - start_ns > SECONDS * GN_NS_PER_S)
+        fail(number, "took too long to bake", made);
+    if (!done && (strncmp(err.text, "m: ", 3) != 0 || strchr(err.text, '\n')))
+        fail(number, err.text, made);
+    if (!done || !is_shown) {
+        gn_bytes_finish(&out);
+        return;
+    }
+    baked++;
+    struct gn_scene *scene = gn_scene_load_bytes("m", out.data, out.size, &limits, NULL, &why);
+    const char *wrong = scene ? gn_scene_check(scene) : why.text;
+    if (wrong) fail(number, wrong, made);
+    gn_scene_destroy(scene);
+    gn_bytes_finish(&out);
+}
+
 static void try_mutant(size_t number, const struct gn_made *made) {
     const struct gn_scene_limits limits = {.memory_mb = MEMORY_MB, .file_mb = MEMORY_MB};
     struct gn_err err = {0};
@@ -284,6 +316,7 @@ static void try_mutant(size_t number, const struct gn_made *made) {
     if (!scene && (strncmp(err.text, "m: ", 3) != 0 || strchr(err.text, '\n') || !err.text[3]))
         fail(number, err.text, made);
     *(scene ? &shown : &refused) += 1;
+    if (gn_bake_is_built() && number % BAKED_EVERY == 0) try_bake(number, made, scene != NULL);
     gn_scene_destroy(scene);
 }
 
@@ -362,9 +395,9 @@ int main(int argc, char **argv) {
     struct rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     for (size_t i = 0; i < seed_count; i++) free(seeds[i].data);
-    printf("%zu mutants of %zu seeds: %d shown, %d refused, %d wrong; slowest %" PRId64
+    printf("%zu mutants of %zu seeds: %d shown, %d refused, %d baked, %d wrong; slowest %" PRId64
            " ms, peak %ld MB\n",
-           most, seed_count, shown, refused, failures, slowest_ns / 1000000,
+           most, seed_count, shown, refused, baked, failures, slowest_ns / 1000000,
            usage.ru_maxrss / 1024);
     return failures > 0;
 }
