@@ -1,0 +1,64 @@
+/* What a kiosk remembers over a restart, as a text of two generations: FILE and FILE.2. A save
+ * writes FILE.new, flushes it to the disk, and renames it over the older of the two; the newer one
+ * is not touched. So whenever the power is cut, one of them is whole, and its checksum says so. */
+#ifndef GN_KIOSK_STATE_H
+#define GN_KIOSK_STATE_H
+
+#include <limits.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+#include "core/err.h"
+
+/* Counters over all starts. A start that follows one without an end is a restart if the machine has
+ * not been started since (a crash, the watchdog), else a cut of the power. */
+#define GN_STATE_COUNTS(X) X(starts) X(restarts) X(cuts) X(frames) X(presses) X(seconds)
+
+struct gn_state {
+    uint64_t sequence;                    /* of the save, from 1 */
+    char mode[128];                       /* its name; "": none */
+    char scene[PATH_MAX], past[PATH_MAX]; /* shown last, and the one before; "": the default one */
+    bool given;    /* `scene` is that of ctl scene, for all modes; else the configuration's */
+    bool runs;     /* it was saved by a program that had not ended */
+    char boot[40]; /* the machine's boot_id then */
+    struct gn_state_counts {
+#define X(id) uint64_t id;
+        GN_STATE_COUNTS(X)
+#undef X
+    } counts;
+};
+enum { GN_STATE_TEXT_MAX = 2 * PATH_MAX + 1024 };
+
+/* One line for each key, the last a CRC-32 of those before it. A text that has a line end in it is
+ * left out. Returns its length. */
+size_t gn_state_print(const struct gn_state *state, char out[GN_STATE_TEXT_MAX]);
+/* False: cut short, changed, or of another version. Unknown keys are passed over. */
+bool gn_state_parse(const char *text, size_t size, struct gn_state *out, struct gn_err *err);
+
+/* The system calls that reading and saving take, each as its namesake: -1 and errno on failure. */
+struct gn_state_files {
+    void *user;
+    ssize_t (*read_file)(void *user, const char *path, char *out, size_t size);
+    int (*create)(void *user, const char *path); /* for writing, empty, follows no link */
+    ssize_t (*write)(void *user, int fd, const void *data, size_t size);
+    int (*fsync)(void *user, int fd);
+    int (*close)(void *user, int fd);
+    int (*rename)(void *user, const char *from, const char *to);
+    int (*fsync_folder)(void *user, const char *path); /* the folder of that file */
+};
+extern const struct gn_state_files gn_state_disk; /* the real ones */
+
+enum gn_state_found {
+    GN_STATE_NONE, /* there is no file yet */
+    GN_STATE_READ,
+    GN_STATE_BROKEN, /* there are files, but none that can be used; err says why */
+};
+/* Reads the newer of both. *older is which one the next save replaces, 0 or 1. */
+enum gn_state_found gn_state_read(const struct gn_state_files *files, const char *path,
+                                  struct gn_state *out, int *older, struct gn_err *err);
+/* Writes it in the place of that one. False: both are as they were. */
+bool gn_state_save(const struct gn_state_files *files, const char *path, int older,
+                   const struct gn_state *state, struct gn_err *err);
+
+#endif
