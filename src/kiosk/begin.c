@@ -21,6 +21,7 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
         gn_options_run_as(o, GN_COMMAND_SHOW); /* also for the bare command */
         /* with modes in the file one of them is always on */
         if (!o->settings->mode && o->mode_count > 0) o->settings = &o->all[1];
+        o->home = o->settings->mode;
         return o;
     }
     gn_show_drop_options(o);
@@ -60,7 +61,10 @@ bool gn_show_load_nothing(struct gn_show *s, struct gn_err *err) {
         settings->scene = (struct gn_scene_settings){.list.count = 1};
         settings->run.input_script = NULL;
     }
-    s->reload = (struct gn_show_reload){.options = s->config.options, .first = true};
+    s->reload = (struct gn_show_reload){.options = s->config.options,
+                                        .file = s->config.file,
+                                        .scene = s->memory.scene,
+                                        .first = true};
     s->config.options = o;
     return gn_stage_take(
         &s->stage, o->settings,
@@ -69,15 +73,16 @@ bool gn_show_load_nothing(struct gn_show *s, struct gn_err *err) {
 
 static bool is_same_path(const char *a, const char *b) { return a && strcmp(a, b) == 0; }
 
-/* Puts the built-in scene where the settings name that path. Cameras and clips that they name there
- * are those of the lost scene. */
-static void replace_scene(struct gn_options *o, const char *path) {
+/* Cameras and clips that they name there are those of the lost scene. */
+void gn_show_replace_scene(struct gn_options *o, const char *path, const char *by) {
+    const char *lost = gn_arena_strdup(&o->arena, path); /* it may be the text that is replaced */
+    const char *own = by ? gn_arena_strdup(&o->arena, by) : NULL;
     for (int i = 0; i < o->all_count; i++) {
         struct gn_scene_settings *scene = &o->all[i].scene;
-        if (is_same_path(scene->path, path))
+        if (is_same_path(scene->path, lost))
             scene->camera = scene->animation = scene->variant = NULL;
         for (int k = 0; k < scene->list.count; k++)
-            if (is_same_path(scene->list.paths[k], path)) scene->list.paths[k] = NULL;
+            if (is_same_path(scene->list.paths[k], lost)) scene->list.paths[k] = own;
     }
 }
 
@@ -85,13 +90,17 @@ bool gn_show_look_at_first(const struct gn_show *s, struct gn_options *o, struct
                            struct gn_stage_look *look, char why[GN_SHOW_WHY], struct gn_err *err) {
     const bool replaces = !loaded->scene && o->settings->scene.path && !s->config.place;
     why[0] = 0;
+    const char *lost = s->first.lost;
+    if (loaded->scene && lost[0])
+        snprintf(why, GN_SHOW_WHY, "%.480s (showing the %s)", lost, s->first.instead);
     if (!loaded->scene) {
         *err = loaded->err;
         gn_stage_name_source(o->settings, err);
         if (!replaces) return false;
-        snprintf(why, GN_SHOW_WHY, "%.480s (showing the default scene)", err->text);
+        snprintf(why, GN_SHOW_WHY, "%.480s (showing the default scene)",
+                 lost[0] ? lost : err->text);
         *err = (struct gn_err){0};
-        replace_scene(o, o->settings->scene.path);
+        gn_show_replace_scene(o, o->settings->scene.path, NULL);
         loaded->scene = gn_stage_scene(o->settings, s->warnings, err);
         if (!loaded->scene) return false;
         gn_pose_init(&loaded->pose, loaded->scene, GN_POSE_DEFAULT);

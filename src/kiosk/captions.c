@@ -18,7 +18,7 @@ void gn_show_open_captions(struct gn_show *s) {
     char text[sizeof why.text + 64];
     gn_fail_prefix(&why, "%s", gn_settings_label(s->stage.settings, render.font));
     snprintf(text, sizeof text, "%s (texts are shown in the built-in font)", why.text);
-    gn_show_report_error(s, text);
+    gn_show_report_error(s, GN_PROBLEM_CONFIG, text);
 }
 
 const char *gn_show_path_name(const char *path) {
@@ -66,7 +66,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
 
     /* captions of changes: a text is set only when it changes */
     const char *error = s->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = t->problem;
+    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = gn_show_problem(s);
     char loading[200];
     const bool loads = !error && is_loading(s, now_ns);
     if (loads) {

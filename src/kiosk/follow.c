@@ -1,5 +1,6 @@
-/* [kiosk] watch: the files that are watched are kiosk.ini, the scene that is shown, and the one
- * that the configuration wants, which may be missing or broken. */
+/* [kiosk] watch: the files that are watched are kiosk.ini, the scene that is shown, the one that
+ * the configuration wants, which may be missing or broken, and one of next-scene or of a mode that
+ * could not be shown. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,20 +9,25 @@
 
 void gn_show_follow_content(struct gn_show *s, bool missed) {
     const struct gn_options *o = s->config.options;
+    const struct gn_show_problems *problems = &s->text.problems;
+    const bool fails = problems->of[GN_PROBLEM_SCENE][0];
     const char *const paths[] = {
         o->config_path,
         s->scenes.count > 0 ? s->scenes.paths[s->scenes.shown] : NULL,
         s->config.asked,
+        fails && problems->scene < s->scenes.count ? s->scenes.paths[problems->scene] : NULL,
     };
     const bool is_open = s->content.watch.fd >= 0;
     char text[200];
     if (!o->settings->kiosk.watch) {
         gn_content_close(&s->content);
+        gn_show_cure_problem(s, GN_PROBLEM_WATCH);
     } else if (is_open || gn_content_open(&s->content, s->loop)) {
         gn_content_follow(&s->content, paths, sizeof paths / sizeof paths[0], missed);
+        gn_show_cure_problem(s, GN_PROBLEM_WATCH);
     } else {
         snprintf(text, sizeof text, "%s: changes of files are not noticed: %s",
                  gn_settings_label(o->settings, kiosk.watch), strerror(errno));
-        gn_show_report_problem(s, text);
+        gn_show_report_problem(s, GN_PROBLEM_WATCH, text);
     }
 }

@@ -33,6 +33,7 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
         struct gn_action action = gn_buttons_action(&s->buttons.map, &event);
         if (action.kind == GN_ACTION_NONE) continue;
         action.pressed = true;
+        s->counts.presses++;
         const struct gn_kiosk before = s->kiosk, *now = &s->kiosk;
         gn_show_act(s, &action, event.time_ns);
 

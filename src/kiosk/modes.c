@@ -20,6 +20,11 @@ int gn_show_find_mode(const struct gn_show_modes *modes, const char *name) {
     return -1;
 }
 
+static int mode_or_base(const struct gn_show_modes *modes, const char *name) {
+    const int named = gn_show_find_mode(modes, name);
+    return named >= 0 ? named : modes->base >= 0 ? modes->base : 0;
+}
+
 /* Without modes in the file each technique is a mode, the best first. The technique of the options
  * gets no settings of its own, so that lights keep the technique that the scene names; if it comes
  * from the command line it is the only mode. */
@@ -79,11 +84,10 @@ void gn_show_list_modes(struct gn_show *s) {
     for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
     for (int i = 0; i < o->mode_count; i++) add_mode(&s->modes, o->modes[i].name, 1 + i);
     if (o->mode_count == 0) list_techniques(s);
-    const int named = gn_show_find_mode(&s->modes, o->settings->mode);
-    s->modes.first = named >= 0 ? named : s->modes.base >= 0 ? s->modes.base : 0;
+    s->modes.first = mode_or_base(&s->modes, o->settings->mode);
     s->rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
                                        .scene_count = s->scenes.listed,
-                                       .first_mode = s->modes.first};
+                                       .first_mode = mode_or_base(&s->modes, o->home)};
     gn_show_take_rules(s);
     for (int i = 0; i < s->modes.count; i++) {
         const struct gn_settings *mode = gn_show_settings(s, i);

@@ -17,6 +17,7 @@
 #include "kiosk/shaders.h"
 #include "kiosk/show.h"
 #include "kiosk/split.h"
+#include "kiosk/state.h"
 #include "kiosk/stats.h"
 #include "kiosk/truth.h"
 #include "kiosk/viewer.h"
@@ -102,6 +103,23 @@ struct gn_show_reload {
     char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
 };
 
+/* What is wrong, one text of each kind: each ends by itself when it is cured. */
+enum gn_problem {
+    GN_PROBLEM_START,   /* of this start, for good */
+    GN_PROBLEM_CONFIG,  /* until a reload succeeds */
+    GN_PROBLEM_ACTION,  /* an action's mode or clip is not there; until another one's is */
+    GN_PROBLEM_MODE,    /* until that mode is shown, or a reload */
+    GN_PROBLEM_SCENE,   /* likewise */
+    GN_PROBLEM_WATCH,   /* changes of files are not noticed */
+    GN_PROBLEM_SHADERS, /* of --shaders; until they can be used */
+    GN_PROBLEM_STATE,   /* until it is saved */
+    GN_PROBLEM_COUNT,
+};
+struct gn_show_problems {
+    char of[GN_PROBLEM_COUNT][512]; /* "": none */
+    unsigned begun[GN_PROBLEM_COUNT], count;
+    int mode, scene; /* that cannot be shown */
+};
 /* Texts on the picture. */
 struct gn_show_text {
     struct gn_captions *captions;
@@ -110,9 +128,8 @@ struct gn_show_text {
     char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
-    char problem[512];         /* reported last; "" */
-    bool cured;                /* by the next reload that succeeds */
-    char modes[120];           /* of the split screen */
+    struct gn_show_problems problems;
+    char modes[120]; /* of the split screen */
 };
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
@@ -132,8 +149,29 @@ struct gn_show_hours { /* of [schedule] */
     struct gn_timer timer;
     bool is_set, was_set; /* the clock, at the last look; it was once */
 };
+struct gn_show_memory {       /* of [kiosk] state */
+    char path[PATH_MAX];      /* "": none */
+    char good[2][PATH_MAX];   /* the scenes shown last before the start; "" */
+    int scene;                /* that it was, in the list of next-scene */
+    struct gn_state state;    /* to be saved next */
+    int older;                /* as gn_state_read() has it */
+    struct gn_keeper *keeper; /* NULL: nothing is saved */
+    struct gn_watch done;
+    struct gn_timer timer;     /* of the next save */
+    bool changed;              /* since the last one began, */
+    int64_t saved_ns;          /* which was then; 0: none was */
+    int64_t seen_ns, shown_ns; /* the last look; what is left of a second */
+    uint64_t frames, presses;  /* of gn_show_counts, then */
+};
+/* The first scene could not be loaded, and another is shown in its place. */
+struct gn_show_first {
+    char lost[GN_SHOW_WHY]; /* why; "": it was loaded */
+    const char *instead;    /* what is shown */
+    int tries;              /* of memory.good */
+};
 struct gn_show_counts {
     int64_t begun_ns; /* the program, about */
+    uint64_t presses; /* of buttons and keys that did something */
     uint64_t frames, most_frames;
     unsigned long allocations; /* in frames after the first, without work ahead */
     uint64_t objects;          /* of GL, in those of them that show what the one before shows */
@@ -166,6 +204,8 @@ struct gn_show {
     struct gn_shader_files shaders;
     struct gn_contents content;
     struct gn_show_hours hours;
+    struct gn_show_memory memory;
+    struct gn_show_first first;
     struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
@@ -173,7 +213,7 @@ struct gn_show {
     struct gn_show_split split;
     struct gn_show_truth truth; /* while the split is on */
     bool changed;               /* the next picture differs: draw it */
-    bool ends, reloads;
+    bool ends, reloads, failed;
 };
 
 /* ---- show.c: the top; these for tests ------------------------------------------------------- */
@@ -184,6 +224,19 @@ void gn_show_close(struct gn_show *show);
 /* Waits until something is to be done, and does it: at most a frame. All times are the loop's: a
  * test may step it on a fake clock. */
 bool gn_show_step(struct gn_show *show, struct gn_err *err);
+
+/* ---- remember.c: [kiosk] state --------------------------------------------------------------- */
+
+/* After the options are read: the mode and scene that the state has, put into them. */
+void gn_show_recall(struct gn_show *show);
+/* Whether there is another scene to load in place of the first, which could not be: the options
+ * then name it. */
+bool gn_show_try_other(struct gn_show *show, struct gn_options **options,
+                       const struct gn_loaded *loaded);
+/* Once the kiosk has begun it is saved; gn_show_remember() is called in each step. */
+void gn_show_open_memory(struct gn_show *show);
+void gn_show_remember(struct gn_show *show);
+void gn_show_close_memory(struct gn_show *show); /* the last save; legal when not open */
 
 /* ---- reload.c: SIGHUP, ctl reload and ctl scene ---------------------------------------------- */
 
@@ -294,6 +347,8 @@ struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn
 void gn_show_drop_options(struct gn_options *options);
 /* That scene in all modes. Returns the path's copy, which is the options'. */
 const char *gn_show_put_file(struct gn_options *options, const char *path);
+/* That scene where the settings name the path; NULL: the built-in one. */
+void gn_show_replace_scene(struct gn_options *options, const char *path, const char *by);
 /* A black stage, and options without any scene; those that there are become a reload's. */
 bool gn_show_load_nothing(struct gn_show *show, struct gn_err *err);
 /* How the options draw the scene of the first load. If that failed, the built-in scene replaces it
@@ -319,13 +374,15 @@ void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t t
 /* Whether there is the mode, or in the scene that is shown the clip, that it names. */
 bool gn_show_check_action(const struct gn_show *show, const struct gn_action *action,
                           struct gn_err *err);
-/* A problem that does not end the kiosk: printed once, and shown by a caption. */
-void gn_show_report_problem(struct gn_show *show, const char *text);
+/* A problem that does not end the kiosk: printed once, and in the status until it is cured. */
+void gn_show_report_problem(struct gn_show *show, enum gn_problem kind, const char *text);
+void gn_show_cure_problem(struct gn_show *show, enum gn_problem kind);
+const char *gn_show_problem(const struct gn_show *show); /* the last that is not cured, or NULL */
 /* A caption of the viewer, for 2 s. */
 __attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show *show, const char *format,
                                                         ...);
 /* One that lasts: the caption stays until a reload, and the status has it as config.error. */
-void gn_show_report_error(struct gn_show *show, const char *text);
+void gn_show_report_error(struct gn_show *show, enum gn_problem kind, const char *text);
 
 /* ---- modes.c: the list of modes, and one of them entered ------------------------------------- */
 

@@ -42,6 +42,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     gn_show_drop_options(s->config.options);
     s->config.options = options;
     s->config.file = r->file;
+    if (!r->first) s->first.lost[0] = '\0';
     s->config.waits = false;
     s->stage.settings = options->settings;
     s->stage.frame_opts.view.orbit = (struct gn_orbit){0};
@@ -49,19 +50,19 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     const bool begun = gn_show_begin(s, err);
     s->kiosk.shown.scene = s->kiosk.wanted.scene = r->scene;
     s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
+    for (int i = GN_PROBLEM_CONFIG; i <= GN_PROBLEM_SCENE; i++) gn_show_cure_problem(s, i);
     if (!begun || (!keeps_display && !gn_show_open_display(s, err))) return false;
     gn_show_open_captions(s);
     gn_show_open_shaders(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
-        gn_show_report_problem(s, why.text); /* not fatal: the kiosk runs without buttons */
+        gn_show_report_problem(s, GN_PROBLEM_CONFIG,
+                               why.text); /* not fatal: the kiosk runs without buttons */
     s->kiosk.blanked = before.blanked;
     s->kiosk.asleep = before.asleep;
     s->kiosk.woken = before.woken;
     s->kiosk.used_ns = before.used_ns;
     gn_show_open_hours(s);
-    if (s->text.cured) s->text.problem[0] = '\0';
-    s->text.cured = false;
     if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
     fflush(stdout);
@@ -80,8 +81,7 @@ void gn_show_drop_reload(struct gn_show *s) {
 
 /* The default scene is shown in place of the first one. */
 static void report_missing(struct gn_show *s, const char *why) {
-    gn_show_report_error(s, why);
-    s->text.cured = true;
+    gn_show_report_error(s, GN_PROBLEM_CONFIG, why);
 }
 
 /* The last good configuration stays. The error is shown on the screen, but one of ctl's file is the
@@ -95,8 +95,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
         const struct gn_kiosk_event failed = {.kind = GN_KIOSK_NOTE,
                                               .time_ns = gn_loop_now_ns(s->loop),
                                               .caption = GN_KIOSK_CAPTION_PROBLEM};
-        gn_show_report_problem(s, why->text);
-        s->text.cured = true;
+        gn_show_report_problem(s, GN_PROBLEM_CONFIG, why->text);
         s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
         s->changed = true;
         return;
@@ -106,8 +105,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     s->changed = true;
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
-    gn_show_report_problem(s, text);
-    s->text.cured = true;
+    gn_show_report_problem(s, GN_PROBLEM_CONFIG, text);
 }
 
 /* ---- the steps ------------------------------------------------------------------------------ */
@@ -132,9 +130,9 @@ static int same_scene(const struct gn_show *s, const struct gn_options *options)
     return before && now && strcmp(before, now) == 0 ? at : 0;
 }
 
-static const char *reload_path(const struct gn_show_reload *r) {
-    const struct gn_settings *o = r->options->settings;
-    return r->scene > 0 && !is_of_mode(o) ? o->scene.list.paths[r->scene] : o->scene.path;
+/* The mode's own, or that one of the list. */
+static const char *scene_path(const struct gn_settings *o, int scene) {
+    return scene > 0 && !is_of_mode(o) ? o->scene.list.paths[scene] : o->scene.path;
 }
 
 /* file: as in gn_show_config. */
@@ -241,6 +239,12 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     struct gn_stage_look look;
     struct gn_err why = {0};
     if (!r->options) return true;
+    if (r->first && r->loaded && gn_show_try_other(s, &r->options, r->loaded)) {
+        gn_loaded_drop(r->loaded);
+        r->loaded = NULL;
+        r->file = s->config.file;
+        r->scene = s->memory.scene;
+    }
     if (r->loaded) {
         if (look_at_loaded(s, &look, &why)) {
             gn_show_stage_reload(s, &look);
@@ -253,8 +257,8 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     }
     if (gn_show_reload_is_staged(s)) return finish_reload(s, err);
     if (!r->options || gn_loader_is_busy(s->scenes.loader)) return true;
-    const char *path = reload_path(r);
-    if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP)
+    const char *path = scene_path(r->options->settings, r->scene);
+    if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP && !(r->first && s->first.lost[0]))
         snprintf(s->config.asked, sizeof s->config.asked, "%s", path ? path : "");
     if (!gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings, &why))
         keep_old(s, r->cause, &why);
@@ -271,11 +275,17 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
         gn_loop_now_ns(s->loop) + (strcmp(backend, "window") == 0 ? WINDOW_NS : GN_NS_PER_S);
     snprintf(s->config.asked, sizeof s->config.asked, "%s", o->scene.path ? o->scene.path : "");
     gn_show_follow_content(s, false);
-    if (!gn_show_start_load(s, GN_SHOW_RELOAD, o->scene.path, o, err)) return false;
-    while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
-        gn_loop_step(s->loop, until_ns);
-    if (s->ends) return false;
-    if (!s->reload.loaded) return gn_show_load_nothing(s, err);
+    do {
+        gn_loaded_drop(s->reload.loaded);
+        s->reload.loaded = NULL;
+        o = s->config.options->settings;
+        if (!gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->memory.scene), o, err))
+            return false;
+        while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
+            gn_loop_step(s->loop, until_ns);
+        if (s->ends) return false;
+        if (!s->reload.loaded) return gn_show_load_nothing(s, err);
+    } while (gn_show_try_other(s, &s->config.options, s->reload.loaded));
     struct gn_loaded *loaded = s->reload.loaded;
     struct gn_stage_look look;
     char missing[GN_SHOW_WHY];

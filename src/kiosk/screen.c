@@ -67,7 +67,7 @@ void gn_show_open_shaders(struct gn_show *s) {
     struct gn_err why = {0};
     gn_shader_files_close(&s->shaders);
     if (!gn_shader_files_open(&s->shaders, s->stage.settings->render.shaders, s->loop, &why))
-        gn_show_report_problem(s, why.text);
+        gn_show_report_problem(s, GN_PROBLEM_SHADERS, why.text);
 }
 
 void gn_show_renew_shaders(struct gn_show *s) {
@@ -76,10 +76,10 @@ void gn_show_renew_shaders(struct gn_show *s) {
     s->shaders.changed = false;
     s->changed = true;
     if (gn_gl_renew_programs(s->stage.gl, &why)) {
-        s->text.problem[0] = '\0'; /* the same problem again is news */
+        gn_show_cure_problem(s, GN_PROBLEM_SHADERS); /* the same problem again is news */
         return;
     }
-    gn_show_report_problem(s, why.text);
+    gn_show_report_problem(s, GN_PROBLEM_SHADERS, why.text);
 }
 
 void gn_show_stop_gl(struct gn_show *s) {

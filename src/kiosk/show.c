@@ -42,6 +42,7 @@ static int64_t due_ns(const struct gn_show *s) {
 bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     struct gn_screen *screen = &s->stage.display.screen;
     gn_loop_step(s->loop, due_ns(s));
+    gn_show_remember(s);
 
     /* input: requests, a reload, events of the display, buttons and keys */
     gn_show_answer_requests(s);
@@ -101,6 +102,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
         ok = gn_show_step(s, err);
         gn_warn_flush(s->warnings, stderr);
     }
+    s->failed = !ok;
     if (!ok) return false;
     if (s->stage.settings->run.verbose && s->stage.gl)
         printf("%llu frames, %llu late, %lu allocations and %llu GL objects after the first\n",
@@ -111,6 +113,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
 }
 
 void gn_show_close(struct gn_show *s) {
+    gn_show_close_memory(s);
     gn_viewer_close(s);
     gn_show_close_control(s);
     gn_input_close(s->buttons.input);
@@ -146,20 +149,28 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
         return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
     if (!gn_show_open_loader(s, err)) return false;
     if (!gn_service_open(&s->service, s->loop, gn_loop_now_ns(s->loop), err)) {
-        gn_show_report_problem(s, err->text); /* the picture is more important */
+        gn_show_report_problem(s, GN_PROBLEM_START, err->text); /* the picture is more important */
         *err = (struct gn_err){0};
     }
     s->config.options = gn_show_read_options(options, NULL, err);
-    if (!s->config.options || !gn_show_load_first(s, err)) return false;
+    if (!s->config.options) return false;
+    gn_show_recall(s);
+    if (!gn_show_load_first(s, err)) return false;
     gn_show_open_captions(s);
     gn_show_open_shaders(s);
-    if (!gn_show_begin(s, err) || !gn_show_open_display(s, err)) return false;
+    if (!gn_show_begin(s, err)) return false;
+    if (!s->reload.first) { /* where the list of next-scene was */
+        s->kiosk.shown.scene = s->kiosk.wanted.scene = s->memory.scene;
+        s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
+    }
+    if (!gn_show_open_display(s, err)) return false;
     if (!gn_show_open_input(s, err)) { /* a script is of the command line */
         if (s->stage.settings->run.input_script) return false;
-        gn_show_report_error(s, err->text);
+        gn_show_report_error(s, GN_PROBLEM_CONFIG, err->text);
         *err = (struct gn_err){0};
     }
     gn_show_open_hours(s);
+    gn_show_open_memory(s);
     gn_show_stats_open(&s->stats, s->stage.settings, &s->stage.display, s->loop);
     gn_show_open_control(s);
     return true;

@@ -23,7 +23,9 @@ struct gn_options {
 
     const struct gn_mode *modes; /* of the INI file, in its order */
     int mode_count;
-    bool is_lesson;                   /* the modes are its steps */
+    const char *home; /* the mode that a kiosk begins in and returns to, whichever is shown; NULL:
+                         the one without settings of its own */
+    bool is_lesson;   /* the modes are its steps */
     const struct gn_buttons *buttons; /* of the INI file; NULL: it has none */
     const char *config_path;          /* the INI file that was read, or NULL */
     const char

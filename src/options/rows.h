@@ -175,6 +175,8 @@ GN_OPTION(.name = "screenshots", .section = "kiosk", .kind = GN_KIND_PATH, .valu
           .help = "folder that clients of the socket may have screenshots written to by the kiosk itself; without it, only gnomon ctl gets them", .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.screenshots))
 GN_OPTION(.name = "watch", .section = "kiosk", .kind = GN_KIND_FLAG,
           .help = "show the scene and this file again when they change, once they are written to the end; what is wrong with them changes nothing but the status", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.watch))
+GN_OPTION(.name = "state", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "FILE|no", .fallback = "no",
+          .help = "file that mode, scene and counters outlast a restart in; beside it there are FILE.2 and FILE.new. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
           .help = "show the name of a mode when it is entered", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
 GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",

@@ -153,6 +153,7 @@ struct gn_kiosk_settings {
     const char *socket;      /* NULL: see gn_listen_default() */
     const char *screenshots; /* folder; NULL: none */
     bool watch;
+    const char *state; /* file; "no": none */
     bool captions;
     int64_t caption_ns;
 };

@@ -40,6 +40,7 @@ static const struct gn_choice map_formats[] = {
     {0},
 };
 static const struct gn_choice environments[] = {{"auto", 0}, {"studio", 0}, {"none", 0}, {0}};
+static const struct gn_choice states[] = {{"no", 0}, {0}};
 static const struct gn_choice aovs[] = {
     {"color", GN_AOV_COLOR},       {"visibility", GN_AOV_VISIBILITY},
     {"distance", GN_AOV_DISTANCE}, {"normal", GN_AOV_NORMAL},

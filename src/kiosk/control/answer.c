@@ -62,9 +62,9 @@ void gn_show_open_control(struct gn_show *s) {
         gn_fail(&err, "control socket %s: cannot wait: %s", named ? named : path, strerror(errno));
     }
     if (named)
-        gn_show_report_error(s, err.text);
+        gn_show_report_error(s, GN_PROBLEM_START, err.text);
     else
-        gn_show_report_problem(s, err.text);
+        gn_show_report_problem(s, GN_PROBLEM_START, err.text);
     close_all(s, c);
 }
 

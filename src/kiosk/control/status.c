@@ -56,6 +56,15 @@ static json_t *lights_json(const struct gn_show *s) {
     return lights;
 }
 
+/* The counters over all starts. */
+static json_t *state_json(const struct gn_show_memory *memory) {
+    json_t *state = json_pack("{s:o}", "file", gn_json_make_text(memory->path));
+#define X(id) json_object_set_new(state, #id, json_integer((json_int_t)memory->state.counts.id));
+    GN_STATE_COUNTS(X)
+#undef X
+    return state;
+}
+
 json_t *gn_show_status_short(const struct gn_show *s) {
     const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &s->kiosk.wanted)];
     const int clip = s->kiosk.play.clip_plus_1 - 1;
@@ -110,8 +119,8 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_set_new(reply, "config",
                         json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
                                   gn_json_make_text(o->config_error)));
-    json_object_set_new(reply, "problem",
-                        gn_json_make_text(s->text.problem[0] ? s->text.problem : NULL));
+    json_object_set_new(reply, "problem", gn_json_make_text(gn_show_problem(s)));
+    if (s->memory.path[0]) json_object_set_new(reply, "state", state_json(&s->memory));
     json_object_set_new(reply, "missing",
                         gn_json_make_text(s->stage.scene ? s->stage.scene->missing : NULL));
     if (s->config.has_past)

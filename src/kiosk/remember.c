@@ -1,0 +1,266 @@
+/* [kiosk] state: mode, scene and counters outlast a restart. They are read before the first scene
+ * is loaded, and saved by a thread: five seconds after a change, at most once a minute, else every
+ * ten minutes, and at the end. */
+#include <errno.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/clock.h"
+#include "kiosk/keeper.h"
+#include "kiosk/private.h"
+#include "shadow/technique.h"
+
+static const int64_t SETTLE_NS = 5 * GN_NS_PER_S, REST_NS = 60 * GN_NS_PER_S,
+                     COUNTS_NS = 600 * GN_NS_PER_S;
+
+/* ---- the start ------------------------------------------------------------------------------- */
+
+static void read_boot(char out[40]) {
+    FILE *file = fopen("/proc/sys/kernel/random/boot_id", "re");
+    out[0] = 0;
+    if (file && !fgets(out, 40, file)) out[0] = 0;
+    if (file) fclose(file);
+    out[strcspn(out, "\n")] = 0;
+}
+
+static void begin_counts(struct gn_state *s) {
+    char boot[sizeof s->boot];
+    read_boot(boot);
+    if (s->runs && strcmp(boot, s->boot) == 0) s->counts.restarts++;
+    if (s->runs && strcmp(boot, s->boot) != 0) s->counts.cuts++;
+    s->counts.starts++;
+    s->runs = true;
+    memcpy(s->boot, boot, sizeof boot);
+}
+
+/* The mode of that name, but where the command line says which. */
+static void recall_mode(const struct gn_show *s, struct gn_options *o) {
+    const char *mode = s->memory.state.mode;
+    const struct gn_settings *base = &o->all[0];
+    const int found = gn_options_find_mode(o, mode);
+    if (!mode[0] || o->settings->run.mode || o->is_lesson) return;
+    if (o->mode_count == 0 &&
+        (gn_settings_source(base, offsetof(struct gn_settings, render.shadow)) == GN_SOURCE_FLAG ||
+         strcmp(mode, gn_techniques[base->render.shadow.items[0]].name) == 0))
+        return;
+    if (found)
+        o->settings = &o->all[found];
+    else
+        gn_warn(s->warnings, "state: there is no mode \"%.60s\" any more; starting as configured",
+                mode);
+}
+
+/* The place of that scene in the list of next-scene; 0: the first, or it is not there. */
+static int list_place(const struct gn_options *o, const char *path) {
+    const struct gn_scene_list *list = &o->all[0].scene.list;
+    for (int i = 0; i < list->count; i++)
+        if (list->paths[i] && strcmp(list->paths[i], path) == 0) return i;
+    return 0;
+}
+
+static void recall_scene(struct gn_show *s, struct gn_options *o) {
+    const struct gn_state *found = &s->memory.state;
+    const enum gn_source source =
+        gn_settings_source(&o->all[0], offsetof(struct gn_settings, scene.path));
+    if (!found->scene[0] || source == GN_SOURCE_FLAG || o->is_lesson) return;
+    if (!found->given) {
+        s->memory.scene = list_place(o, found->scene);
+    } else if (access(found->scene, R_OK) == 0) {
+        s->config.file = gn_show_put_file(o, found->scene);
+        s->config.has_past = true; /* rollback: the configuration's */
+    } else {
+        snprintf(s->first.lost, sizeof s->first.lost, "scene %.400s: cannot open: %s", found->scene,
+                 strerror(errno));
+        s->first.instead = "configured scene";
+    }
+}
+
+void gn_show_recall(struct gn_show *s) {
+    struct gn_show_memory *m = &s->memory;
+    struct gn_options *o = s->config.options;
+    const char *path = o->settings->kiosk.state;
+    struct gn_err err = {0};
+    if (strcmp(path, "no") == 0) return;
+    snprintf(m->path, sizeof m->path, "%s", path);
+    if (gn_state_read(&gn_state_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
+        gn_warn(s->warnings, "state: %s; starting as configured", err.text);
+    memcpy(m->good[0], m->state.scene, PATH_MAX);
+    memcpy(m->good[1], m->state.past, PATH_MAX);
+    recall_mode(s, o);
+    recall_scene(s, o);
+    begin_counts(&m->state);
+}
+
+/* ---- another scene for the first ------------------------------------------------------------- */
+
+/* What the state asked for is lost: the options as they are configured. */
+static bool try_configured(struct gn_show *s, struct gn_options **options) {
+    struct gn_err unused = {0};
+    if (!s->config.file && s->memory.scene == 0) return false;
+    struct gn_options *fresh = gn_show_read_options(*options, NULL, &unused);
+    if (!fresh) return false;
+    gn_show_drop_options(*options);
+    *options = fresh;
+    s->config.file = NULL;
+    s->config.has_past = false;
+    s->memory.scene = 0;
+    recall_mode(s, fresh);
+    s->first.instead = "configured scene";
+    return true;
+}
+
+static bool try_good(struct gn_show *s, struct gn_options *o) {
+    const char *path = o->settings->scene.path;
+    while (s->first.tries < 2) {
+        const char *good = s->memory.good[s->first.tries++];
+        if (!good[0] || !path || strcmp(good, path) == 0 || access(good, R_OK) != 0) continue;
+        gn_show_replace_scene(o, path, good);
+        s->first.instead = "last good scene";
+        return true;
+    }
+    return false;
+}
+
+bool gn_show_try_other(struct gn_show *s, struct gn_options **options,
+                       const struct gn_loaded *loaded) {
+    struct gn_err err = loaded->err;
+    if (loaded->scene || s->config.place || !s->memory.path[0] || !(*options)->settings->scene.path)
+        return false;
+    gn_stage_name_source((*options)->settings, &err);
+    if (!s->first.lost[0]) snprintf(s->first.lost, sizeof s->first.lost, "%.480s", err.text);
+    return try_configured(s, options) || try_good(s, *options);
+}
+
+/* ---- saving ---------------------------------------------------------------------------------- */
+
+static void set_due(struct gn_show_memory *m, int64_t now_ns) {
+    const int64_t settled_ns = now_ns + SETTLE_NS, rested_ns = m->saved_ns + REST_NS;
+    m->timer.due_ns = !m->changed                                 ? m->saved_ns + COUNTS_NS
+                      : m->saved_ns > 0 && rested_ns > settled_ns ? rested_ns
+                                                                  : settled_ns;
+}
+
+static void report_failure(struct gn_show *s, const struct gn_err *err) {
+    char text[sizeof err->text + 64];
+    snprintf(text, sizeof text, "state: %s (it will not outlast a restart)", err->text);
+    gn_show_report_problem(s, GN_PROBLEM_STATE, text);
+}
+
+static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64_t now_ns) {
+    struct gn_show_memory *m = &s->memory;
+    if (ok)
+        gn_show_cure_problem(s, GN_PROBLEM_STATE);
+    else
+        report_failure(s, err);
+    m->changed |= !ok;
+    set_due(m, now_ns);
+}
+
+static void begin_save(void *user, int64_t now_ns) {
+    struct gn_show *s = user;
+    struct gn_show_memory *m = &s->memory;
+    struct gn_err err = {0};
+    m->saved_ns = now_ns;
+    m->changed = false;
+    m->state.sequence++;
+    if (!gn_keeper_start(m->keeper, &m->state, &err)) end_save(s, false, &err, now_ns);
+}
+
+static void take_save(void *user, uint32_t events, int64_t now_ns) {
+    struct gn_show *s = user;
+    struct gn_err err = {0};
+    bool ok;
+    (void)events;
+    if (gn_keeper_take(s->memory.keeper, &ok, &err)) end_save(s, ok, &err, now_ns);
+}
+
+void gn_show_open_memory(struct gn_show *s) {
+    struct gn_show_memory *m = &s->memory;
+    struct gn_err err = {0};
+    if (!m->path[0]) return;
+    m->keeper = gn_keeper_create(&gn_state_disk, m->path, m->older, &err);
+    m->done = (struct gn_watch){.fd = m->keeper ? gn_keeper_fd(m->keeper) : -1,
+                                .events = EPOLLIN,
+                                .call = take_save,
+                                .user = s};
+    if (m->keeper && gn_loop_add(s->loop, &m->done)) {
+        m->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = begin_save, .user = s};
+        gn_loop_add_timer(s->loop, &m->timer);
+        m->seen_ns = gn_loop_now_ns(s->loop);
+        m->changed = true; /* that it runs */
+        set_due(m, m->seen_ns);
+        return;
+    }
+    if (m->keeper) gn_fail(&err, "%s: cannot wait for saves: %s", m->path, strerror(errno));
+    gn_keeper_destroy(m->keeper);
+    m->keeper = NULL;
+    report_failure(s, &err);
+}
+
+/* ---- what is remembered ---------------------------------------------------------------------- */
+
+static void count(struct gn_show *s, int64_t now_ns) {
+    struct gn_show_memory *m = &s->memory;
+    struct gn_state_counts *c = &m->state.counts;
+    const uint64_t frames = s->counts.frames;
+    if (s->stage.display.screen.lit && !gn_kiosk_is_dark(&s->kiosk))
+        m->shown_ns += now_ns - m->seen_ns;
+    m->seen_ns = now_ns;
+    c->seconds += (uint64_t)(m->shown_ns / GN_NS_PER_S);
+    m->shown_ns %= GN_NS_PER_S;
+    c->frames += frames >= m->frames ? frames - m->frames : frames;
+    m->frames = frames;
+    c->presses += s->counts.presses - m->presses;
+    m->presses = s->counts.presses;
+}
+
+static bool take_text(const char *text, char *out, size_t size) {
+    if (strncmp(out, text, size - 1) == 0) return false;
+    snprintf(out, size, "%s", text);
+    return true;
+}
+
+/* The scene of the configuration stays where another one is shown in its place. */
+static bool take_scene(struct gn_show *s) {
+    struct gn_state *state = &s->memory.state;
+    const char *path = s->scenes.paths[s->scenes.shown];
+    const bool given = s->config.file;
+    char before[PATH_MAX];
+    if (s->first.lost[0]) return false;
+    const bool changes = given != state->given;
+    state->given = given;
+    memcpy(before, state->scene, sizeof before);
+    if (!take_text(path ? path : "", state->scene, sizeof state->scene)) return changes;
+    if (before[0]) memcpy(state->past, before, sizeof before);
+    return true;
+}
+
+void gn_show_remember(struct gn_show *s) {
+    struct gn_show_memory *m = &s->memory;
+    const int64_t now_ns = gn_loop_now_ns(s->loop);
+    if (!m->keeper) return;
+    count(s, now_ns);
+    if (s->reload.first) return; /* nothing is shown yet */
+    const bool other =
+        take_text(s->modes.names[s->kiosk.shown.mode], m->state.mode, sizeof m->state.mode);
+    if (!take_scene(s) && !other) return;
+    const bool waits = m->changed;
+    m->changed = true;
+    if (!waits && !gn_keeper_is_busy(m->keeper)) set_due(m, now_ns);
+}
+
+void gn_show_close_memory(struct gn_show *s) {
+    struct gn_show_memory *m = &s->memory;
+    struct gn_err err = {0};
+    if (!m->keeper) return;
+    gn_show_remember(s);
+    m->state.runs = s->failed;
+    m->state.sequence++;
+    if (!gn_keeper_finish(m->keeper, &m->state, &err)) report_failure(s, &err);
+    gn_loop_remove(&m->done);
+    gn_loop_remove_timer(&m->timer);
+    gn_keeper_destroy(m->keeper);
+    m->keeper = NULL;
+}

@@ -1,0 +1,203 @@
+#!/bin/bash
+# [kiosk] state of a kiosk that runs: mode, scene and counters outlast its end and its death; what
+# is lost meanwhile is shown as configured, or as it was last, with the reason. Killed while it
+# saves, it finds the old state or the new one. GN_FULL=1: killed 60 times; TIMES=N: N.
+set -u
+gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
+times=6
+[ "${GN_FULL:-}" != 1 ] || times=60
+times=${TIMES:-$times}
+folder=$(mktemp -d)
+kiosk=''
+trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
+export XDG_CONFIG_HOME="$folder/none"
+bad=0
+cd "$folder" || exit 1
+
+complain() {
+    echo "FAIL: $*"
+    bad=1
+}
+ctl() { timeout 90 "$gnomon" ctl --socket "$folder/ctl" "$@"; }
+# says TEXT: the status does, within a while
+says() {
+    for _ in $(seq 150); do
+        ctl status > status 2> err && grep -qxF "$1" status && return
+        sleep 0.1
+    done
+    complain "$2: no \"$1\": $(grep -E '^(mode|scene|problem|config|state)' status; cat err kiosk.err)"
+}
+start() {
+    "$gnomon" show -c kiosk.ini --backend egl --size 64x36 --socket "$folder/ctl" "$@" > kiosk.out 2> kiosk.err &
+    kiosk=$!
+}
+stop() {
+    ctl quit > /dev/null
+    wait "$kiosk" || complain "it ends with $?: $(cat kiosk.err)"
+    kiosk=''
+}
+quiet() { [ ! -s kiosk.err ] || complain "$1: $(cat kiosk.err)"; }
+
+# colour NAME R,G,B: a scene that is all of that colour
+colour() {
+    cat > "$1.gltf" << END
+{"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_unlit"],
+"scenes":[{"nodes":[0],"extras":{"gnomon_background":[$2]}}],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[$2,1]},"extensions":{"KHR_materials_unlit":{}}}],
+"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0,1]}]}
+END
+}
+colour red 1,0,0
+colour green 0,1,0
+colour blue 0,0,1
+
+# config LINE..: with those lines in [kiosk]
+config() {
+    printf '%s\n' '[scene]' 'file = red.gltf' 'file = green.gltf' '[mode "A"]' 'shadow = none' '[mode "B"]' 'shadow = none' \
+        '[mode "C"]' 'shadow = none' '[kiosk]' "$@" > kiosk.ini
+}
+
+# off by default: nothing is written
+config
+start
+says 'mode: A' 'without a state'
+ctl mode B > /dev/null
+stop
+[ -z "$(ls | grep state)" ] || complain "a state that nobody wants: $(ls)"
+start
+says 'mode: A' 'without a state'
+stop
+
+# on: mode, the place in the list of scenes, counters
+config 'state = state'
+start
+says 'state.starts: 1' 'the first start'
+ctl mode B > /dev/null
+ctl next-scene > /dev/null
+says 'scene: green.gltf' 'the next scene'
+says 'waits: no' 'the next scene'
+stop
+quiet 'the first start'
+grep -qx 'mode B' state || complain "the mode is not saved: $(cat state)"
+start
+says 'mode: B' 'a second start'
+says 'scene: green.gltf' 'a second start'
+says 'state.starts: 2' 'a second start'
+says 'state.restarts: 0' 'a second start'
+ctl screenshot now.png > /dev/null || complain 'no picture of the second scene'
+"$gnomon" render green.gltf --size 64x36 --shadow none --msaa 0 -o green.png && cmp -s now.png green.png ||
+    complain 'another picture than that of the scene'
+for _ in $(seq 300); do grep -qsx "runs yes" state state.2 && break || sleep 0.1; done # it is saved that it runs
+kill -KILL "$kiosk"
+wait "$kiosk" 2> /dev/null
+start
+says 'state.restarts: 1' 'a restart'
+says 'mode: B' 'a restart'
+stop
+quiet 'a restart'
+start --mode C
+says 'mode: C' 'the command line says which'
+stop
+
+# the scene of ctl scene
+config 'state = state'
+start
+says 'mode: C' 'before ctl scene'
+ctl scene blue.gltf > /dev/null || complain 'ctl scene'
+stop
+start
+says "scene: $folder/blue.gltf" 'a scene that was given'
+ctl rollback > /dev/null || complain 'no way back to the configuration'
+says 'scene: red.gltf' 'after rollback'
+ctl scene blue.gltf > /dev/null || complain 'ctl scene'
+stop
+mv blue.gltf gone.gltf
+start
+says 'scene: red.gltf' 'the given scene is missing'
+grep -q '^config.error: scene .*blue.gltf: .*No such file.* (showing the configured scene)' status || complain "$(cat status)"
+stop
+echo '{' > blue.gltf
+start
+says 'scene: red.gltf' 'the given scene is broken'
+grep -q '^config.error: .*blue.gltf.* (showing the configured scene)' status || complain "$(cat status)"
+stop
+mv gone.gltf blue.gltf
+start
+says "scene: $folder/blue.gltf" 'the given scene is there again'
+quiet 'the given scene is there again'
+
+# the configured scene is missing: the last good one
+ctl rollback > /dev/null
+says 'scene: red.gltf' 'rolled back'
+stop
+sed -i 's/^file = red.gltf/file = none.gltf/; /^file = green/d' kiosk.ini
+start
+says "scene: red.gltf" 'the last good scene'
+grep -q '^config.error: .*none.gltf: .*No such file.* (showing the last good scene)' status || complain "$(cat status)"
+ctl screenshot now.png > /dev/null || complain 'no picture of the last good scene'
+stop
+mv red.gltf away.gltf
+start
+says "scene: $folder/blue.gltf" 'the last but one'
+stop
+mv blue.gltf away2.gltf
+start
+says 'scene: (default scene)' 'no good scene is left'
+grep -q '^config.error: .*none.gltf: .*No such file.* (showing the default scene)' status || complain "$(cat status)"
+stop
+mv away.gltf red.gltf
+
+# a mode that is no longer there; a broken state
+config 'state = state'
+sed -i '/"C"/,+1d' kiosk.ini
+start
+says 'mode: A' 'a mode that is gone'
+grep -q 'state: there is no mode "C" any more; starting as configured' kiosk.err || complain "$(cat kiosk.err)"
+stop
+config 'state = state'
+for file in state state.2; do printf 'xy' | dd of=$file bs=1 seek=20 conv=notrunc 2> /dev/null; done
+start
+says 'state.starts: 1' 'a broken state'
+[ "$(grep -c 'state: state: its checksum is wrong; starting as configured' kiosk.err)" = 1 ] || complain "$(cat kiosk.err)"
+stop
+start
+says 'state.starts: 2' 'after a broken state'
+quiet 'after a broken state'
+stop
+
+# killed at any moment of its last save: what it had read, or what it was to write
+newest() { # sets starts and mode to those of the newer generation
+    local file=state
+    [ "$(sed -n 's/^sequence //p' state.2)" -lt "$(sed -n 's/^sequence //p' state)" ] || file=state.2
+    starts=$(sed -n 's/^starts //p' $file) mode=$(sed -n 's/^mode //p' $file)
+}
+within=0 new=0
+newest
+for i in $(seq "$times"); do
+    before="$starts $mode"
+    start
+    says "state.starts: $((starts + 1))" "death $i"
+    quiet "death $i"
+    grep -qx "mode: $mode" status || complain "death $i: $(grep ^mode: status), not $mode"
+    next=$([ "$mode" = A ] && echo B || echo A)
+    after="$((starts + 1)) $next"
+    ctl mode $next > /dev/null
+    kill -TERM "$kiosk"
+    sleep "0.00$(printf %02d $((RANDOM % 100)))"
+    kill -KILL "$kiosk" 2> /dev/null
+    wait "$kiosk" 2> /dev/null
+    newest
+    case "$starts $mode" in
+    "$after") new=$((new + 1)) ;;
+    "$before") ;;
+    *) complain "death $i: \"$starts $mode\", neither \"$before\" nor \"$after\"" ;;
+    esac
+    [ ! -e state.new ] || within=$((within + 1))
+    rm -f state.new
+done
+kiosk=''
+echo "killed $times times, $within of them within a save; $new states were new"
+exit $bad
