@@ -14,6 +14,7 @@
 
 #include "core/arena.h"
 #include "core/file.h"
+#include "display/message.h"
 #include "image/write.h"
 
 struct gn_screenshot {
@@ -184,6 +185,21 @@ bool gn_screenshot_start(struct gn_screenshot *shot, struct gn_err *err) {
     shot->runs = reason == 0;
     shot->asked = shot->asked && !shot->runs;
     return shot->runs || gn_fail(err, "screenshot: no thread: %s", strerror(reason));
+}
+
+bool gn_screenshot_say(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,
+                       const char *text, struct gn_err *err) {
+    uint8_t *rgba = gn_screenshot_begin(shot, width_px, height_px, 0, err);
+    if (!rgba) return false;
+    const struct gn_message_picture picture = {
+        .pixels = rgba, .stride = 4ul * width_px, .width_px = width_px, .height_px = height_px};
+    gn_message_draw(&picture, text);
+    for (size_t i = 0; i < (size_t)width_px * height_px; i++) { /* XRGB, a word each */
+        uint32_t pixel;
+        memcpy(&pixel, rgba + 4 * i, 4);
+        for (unsigned k = 0; k < 3; k++) rgba[4 * i + k] = (uint8_t)(pixel >> (16 - 8 * k));
+    }
+    return gn_screenshot_start(shot, err);
 }
 
 void gn_screenshot_fail(struct gn_screenshot *shot, const struct gn_err *err) {

@@ -41,19 +41,23 @@ says 'schedule.on: no'
 grep -q '^schedule.clock: yes' status || complain 'a trusted clock is not set'
 next=$(sed -n 's/^schedule.next: //p' status)
 [ "$next" -gt "$(date +%s)" ] && [ "$next" -le $(($(date +%s) + 7200)) ] || complain "it switches at $next"
-ctl screenshot dark.png 2> err && complain 'a screenshot of a dark screen'
-grep -q 'switched off' err || complain "a dark screen: $(cat err)"
+# is_dark NAME: a screenshot, of that name, is a picture that says that the screen is off
+is_dark() { ctl screenshot "$1.png" 2> err | grep -q '^dark: the screen is off, outside of the hours'; }
+is_dark dark || complain "a dark screen: $(cat err)"
 ctl blank off > /dev/null
-ctl screenshot lit.png > /dev/null 2> err || complain "it does not wake: $(cat err)"
+! is_dark lit || complain "it does not wake: $(cat err)"
+cmp -s dark.png lit.png && complain 'a dark screen shows the picture'
 for _ in $(seq 100); do
-    ctl screenshot again.png > /dev/null 2>&1 || break
+    is_dark again && break
     sleep 0.1
 done
-ctl screenshot again.png > /dev/null 2>&1 && complain 'it stays awake'
+cmp -s dark.png again.png || complain 'it stays awake'
 sed -i 's/^on = .*/on = 00:00-24:00/' kiosk.ini
 ctl reload > /dev/null
 says 'schedule.on: yes'
-ctl screenshot day.png > /dev/null 2> err || complain "not on in its hours: $(cat err)"
+! is_dark day || complain "not on in its hours: $(cat err)"
+ctl blank on > /dev/null
+ctl screenshot blanked.png | grep -q '^dark: the screen is switched off by blank' || complain 'a blanked screen'
 stop
 
 start 'clock = trusted' 'off = black' 'wake = 1'

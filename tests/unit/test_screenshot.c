@@ -74,6 +74,28 @@ static void a_turned_screen_gives_an_upright_picture(void **state) {
     }
 }
 
+/* Of the message's two colours (display/message.c), which are unlike in all channels. */
+static void a_text_takes_the_place_of_a_frame(void **state) {
+    (void)state;
+    struct gn_picture picture = {0};
+    int ink = 0;
+    gn_screenshot_ask(shot, in_folder("a.png"), -1);
+    assert_true(gn_screenshot_say(shot, 90, 40, "it is off", &err));
+    if (!finish()) fail_msg("%s", err.text);
+    if (!gn_picture_read(&picture, in_folder("a.png"), &err)) fail_msg("%s", err.text);
+    assert_int_equal(picture.width_px, 90);
+    assert_int_equal(picture.height_px, 40);
+    for (int i = 0; i < 90 * 40; i++) {
+        const float *pixel = gn_picture_at(&picture, i % 90, i / 90);
+        const bool is_ink = pixel[0] > 0.5f;
+        const int expected[2][3] = {{0x20, 0x24, 0x28}, {0xe8, 0xe8, 0xe8}};
+        for (int k = 0; k < 3; k++) assert_int_equal(lrintf(pixel[k] * 255), expected[is_ink][k]);
+        ink += is_ink;
+    }
+    assert_in_range(ink, 50, 150); /* seven letters of 35 dots, about a third of each */
+    gn_picture_finish(&picture);
+}
+
 static void a_name_that_is_not_fit_is_refused_before(void **state) {
     (void)state;
     assert_true(gn_screenshot_check("/tmp/x.png", &err));
@@ -259,6 +281,7 @@ static int leave(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_turned_screen_gives_an_upright_picture, begin, end),
+        cmocka_unit_test_setup_teardown(a_text_takes_the_place_of_a_frame, begin, end),
         cmocka_unit_test(a_name_that_is_not_fit_is_refused_before),
         cmocka_unit_test_setup_teardown(a_client_gets_it_in_its_memory_file, begin, end),
         cmocka_unit_test(no_other_descriptor_is_written_to),

@@ -21,6 +21,7 @@ struct gn_show_control {
     struct gn_watch screenshot_done;
     struct gn_timer screenshot_late;
     const struct gn_request *screenshot, *reload; /* to be answered later; NULL: none */
+    char dark[256]; /* of the screenshot: why it is a text; "": it is a frame */
     struct gn_show_status status;
 };
 
@@ -112,26 +113,51 @@ static json_t *answer_get(struct gn_show *s, const struct gn_request *r, struct 
 
 /* ---- screenshots ---- */
 
+/* Why the screen shows nothing; NULL: it shows a picture. */
+static const char *why_dark(const struct gn_show *s) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    if (s->kiosk.asleep && !s->kiosk.woken)
+        return "the screen is off, outside of the hours of [schedule]";
+    if (s->kiosk.blanked) return "the screen is switched off by blank";
+    if (screen->lit && s->stage.gl) return NULL;
+    return screen->status[0] ? screen->status : "no frame was drawn yet";
+}
+
+/* A picture that says it, as large as the screen is or was. */
+static void begin_dark(struct gn_show *s, const char *why) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    const struct gn_size *size = &s->stage.settings->render.size;
+    const bool known = screen->width_px > 0 && screen->height_px > 0,
+               on_side = screen->rotate_deg % 180 != 0;
+    const uint32_t width = known ? screen->width_px : (uint32_t)size->width_px,
+                   height = known ? screen->height_px : (uint32_t)size->height_px;
+    char text[300];
+    struct gn_err err = {0};
+    snprintf(text, sizeof text, "gnomon: %.280s", why);
+    if (!gn_screenshot_say(s->screenshot, on_side ? height : width, on_side ? width : height, text,
+                           &err))
+        gn_screenshot_fail(s->screenshot, &err);
+}
+
 /* Answered when the picture is written. */
 static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
                                  struct gn_err *err) {
     struct gn_show_control *c = s->control;
-    const struct gn_screen *screen = &s->stage.display.screen;
     const char *folder = s->stage.settings->kiosk.screenshots;
     char target[PATH_MAX];
     if (!gn_screenshot_permits(r->words[0], r->fd, folder, target, err)) return NULL;
     if (c->screenshot) {
         gn_fail(err, "busy");
-    } else if (gn_kiosk_is_dark(&s->kiosk)) {
-        gn_fail(err, "screenshot: the screen is switched off");
-    } else if (!screen->lit || !s->stage.gl) {
-        gn_fail(err, "screenshot: nothing is shown: %s",
-                screen->status[0] ? screen->status : "no frame was drawn yet");
     } else {
+        const char *dark = why_dark(s);
         c->screenshot = r;
         c->screenshot_late.due_ns = gn_loop_now_ns(s->loop) + SCREENSHOT_NS;
         gn_screenshot_ask(s->screenshot, target, r->fd);
-        s->changed = true;
+        snprintf(c->dark, sizeof c->dark, "%s", dark ? dark : "");
+        if (dark)
+            begin_dark(s, dark);
+        else
+            s->changed = true;
     }
     return NULL;
 }
@@ -155,10 +181,13 @@ static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
     if (!gn_screenshot_take(s->screenshot, &ok, &err)) return;
     c->screenshot = NULL;
     c->screenshot_late.due_ns = GN_LOOP_NEVER;
-    if (ok)
-        gn_control_answer(c->control, r, json_pack("{s:o}", "file", gn_reply_text(r->words[0])));
-    else
+    if (!ok) {
         gn_control_refuse(c->control, r, &err);
+        return;
+    }
+    json_t *reply = json_pack("{s:o}", "file", gn_reply_text(r->words[0]));
+    if (c->dark[0]) json_object_set_new(reply, "dark", gn_reply_text(c->dark));
+    gn_control_answer(c->control, r, reply);
 }
 
 /* ---- reloading ---- */
