@@ -1,9 +1,35 @@
 /* Texts over the finished picture: one draw, an instance per rectangle. Colours are in the target's
- * encoded space, so the pass comes after all linear ones. */
+ * encoded space, so the pass comes after all linear ones. A picture that is dimmed has grounds over
+ * all of it, the last of them as strong as it takes. */
+#include <math.h>
 #include <string.h>
 
 #include "blocks.glsl"
 #include "frame/private.h"
+
+static void add_rectangle(struct gn_frame *frame, const struct gn_caption_quad *q, float alpha) {
+    /* base_color: the rectangle in pixels, top row first; surface: its place in the atlas, its
+     * opacity, 1 for a background. */
+    GN_LIST_PUSH(&frame->instances) = (struct gn_instance){
+        .base_color = {(float)q->x, (float)q->y, (float)q->width, (float)q->height},
+        .surface = {(float)q->atlas_x, (float)q->atlas_y, alpha, q->ground ? 1.0f : 0.0f}};
+}
+
+/* In a target that is blended as stored the share of light is exact on white, and close below. */
+static void add_dimming(struct gn_frame *frame, float share) {
+    const struct gn_caption_quad all = {.width = (int32_t)frame->picture.width_px,
+                                        .height = (int32_t)frame->picture.height_px,
+                                        .ground = true};
+    const float least = 1e-4f, light = 1.0f - share > least ? 1.0f - share : least;
+    const bool encodes = frame->plan.encode_srgb;
+    const float ground = (float)CAPTION_SHADE;
+    const float shade = encodes ? ground : powf((ground + 0.055f) / 1.055f, 2.4f);
+    float left = light;
+    if (encodes)
+        left = light <= 0.0031308f ? 12.92f * light : 1.055f * powf(light, 1.0f / 2.4f) - 0.055f;
+    for (; left < shade; left /= shade) add_rectangle(frame, &all, 1.0f);
+    add_rectangle(frame, &all, (1.0f - left) / (1.0f - shade));
+}
 
 void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts) {
@@ -15,24 +41,25 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
     if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
     if (opts->debug.aov != GN_AOV_COLOR) return;
     if (opts->captions_later) gn_frame_program(frame, &key);
-    if (!run || run->width_px != frame->picture.width_px ||
-        run->height_px != frame->picture.height_px)
-        return;
+    if (run &&
+        (run->width_px != frame->picture.width_px || run->height_px != frame->picture.height_px))
+        run = NULL;
     const uint32_t first = frame->instances.count;
     int32_t left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0; /* of what is visible */
-    for (uint32_t i = 0; i < run->quad_count; i++) {
+    for (uint32_t i = 0; run && i < run->quad_count; i++) {
         const struct gn_caption_quad *q = &run->quads[i];
         if (run->alpha[q->caption] <= 0.0f) continue;
-        /* base_color: the rectangle in pixels, top row first; surface: its place in the atlas, its
-         * opacity, 1 for a background. */
-        GN_LIST_PUSH(&frame->instances) = (struct gn_instance){
-            .base_color = {(float)q->x, (float)q->y, (float)q->width, (float)q->height},
-            .surface = {(float)q->atlas_x, (float)q->atlas_y, run->alpha[q->caption],
-                        q->ground ? 1.0f : 0.0f}};
+        add_rectangle(frame, q, run->alpha[q->caption]);
         if (q->x < left) left = q->x;
         if (q->y < top) top = q->y;
         if (q->x + q->width > right) right = q->x + q->width;
         if (q->y + q->height > bottom) bottom = q->y + q->height;
+    }
+    if (opts->dimmed > 0.0f) {
+        add_dimming(frame, opts->dimmed);
+        left = top = 0;
+        right = (int32_t)frame->picture.width_px;
+        bottom = (int32_t)frame->picture.height_px;
     }
     if (right <= left) return;
     const struct gn_rect rect = {(uint32_t)left, frame->picture.height_px - (uint32_t)bottom,
@@ -43,14 +70,14 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
     pass->rect = gn_frame_turned_rect(frame, rect);
     pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
-    pass->picture.reads_atlas = true;
+    pass->picture.reads_atlas = run;
     pass->constants = c;
     pass->constant_count = CAPTION_SIZE;
     c[CAPTION_PX][0] = 2.0f / (float)frame->picture.width_px;
     c[CAPTION_PX][1] = 2.0f / (float)frame->picture.height_px;
     c[CAPTION_PX][2] = frame->picture.turn[0];
     c[CAPTION_PX][3] = frame->picture.turn[1];
-    frame->plan.atlas = run->atlas;
+    frame->plan.atlas = run ? run->atlas : NULL;
     gn_frame_draw_bare(frame, &key, 6, first, frame->instances.count - first);
     gn_frame_end_pass(frame);
 }

@@ -32,7 +32,7 @@ static const char *check_draw(const struct gn_plan *plan, const struct gn_pass *
     REQUIRE((key->kind == GN_PROGRAM_FLAT) == picture->only_stencil);
     REQUIRE(caption ||
             (key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
-    REQUIRE(caption == picture->reads_atlas);
+    REQUIRE(caption || !picture->reads_atlas);
     REQUIRE(adds == (picture->blend == GN_BLEND_ADD));
     const uint64_t tint = GN_FEATURE(TINTED) | GN_FEATURE(UNLIT);
     REQUIRE(((key->features & tint) == tint) == (picture->blend == GN_BLEND_TINT));

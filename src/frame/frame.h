@@ -145,6 +145,7 @@ struct gn_frame_opts {
     bool all_seen;                         /* no culling: for programs that will be needed later */
     const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
     bool captions_later;                   /* include their program even without captions */
+    float dimmed; /* share of its light that the finished picture loses, captions too; 0: none */
 };
 
 /* What options say of that light of the scene alone; nothing given: no such options. */

@@ -56,6 +56,8 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     gn_show_take_view(s, &view, seen_ns);
     gn_show_write_captions(s, &view, seen_ns);
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
+    const struct gn_schedule_settings *hours = &s->config.options->settings->schedule;
+    s->stage.frame_opts.dimmed = s->hours.dims && !is_bare ? 1.0f - (float)hours->dim_to : 0.0f;
     if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     bool left_is_behind = false;

@@ -148,6 +148,7 @@ struct gn_show_fade {
 struct gn_show_hours { /* of [schedule] */
     struct gn_timer timer;
     bool is_set, was_set; /* the clock, at the last look; it was once */
+    bool dims;            /* these are hours of dim */
 };
 struct gn_show_memory {       /* of [kiosk] state */
     char path[PATH_MAX];      /* "": none */

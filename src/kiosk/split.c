@@ -62,6 +62,7 @@ static struct gn_frame_opts left_opts(const struct gn_show *s) {
     opts.msaa = now->msaa;
     opts.captions = now->captions;
     opts.captions_later = now->captions_later;
+    opts.dimmed = now->dimmed;
     return opts;
 }
 

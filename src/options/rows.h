@@ -188,6 +188,10 @@ GN_OPTION(.name = "hours-off", .key = "off", .section = "schedule", .kind = GN_K
           .help = "outside of them switch the display off, or show black, for displays that do not come back", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.off_is_black))
 GN_OPTION(.name = "hours-wake", .key = "wake", .section = "schedule", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds", .fallback = "300",
           .help = "a button that is pressed outside of them switches the screen on, until so long after the last press", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.wake_ns))
+GN_OPTION(.name = "hours-dim", .key = "dim", .section = "schedule", .kind = GN_KIND_HOURS, .value = "HOURS", .fallback = "never",
+          .help = "hours of local time, of those in which it is on, in which the picture is darker; never while the clock is not set", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.dim))
+GN_OPTION(.name = "hours-dim-to", .key = "dim_to", .section = "schedule", .kind = GN_KIND_NUMBER, .min = .01, .max = 1, .value = "X", .fallback = ".3",
+          .help = "share of the picture's light that is left in them", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.dim_to))
 GN_OPTION(.name = "hours-clock", .key = "clock", .section = "schedule", .kind = GN_KIND_CHOICE, .choices = clocks, .value = "WHICH", .fallback = "checked",
           .help = "checked: the clock counts as set once the network or a battery has set it; trusted: also otherwise, if it shows 2024 or later", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.clock_trusted))
 /* the command's own */

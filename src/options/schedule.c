@@ -54,11 +54,11 @@ static bool parse_minute(const char **at, uint16_t *out) {
     return *out <= DAY_MIN;
 }
 
-bool gn_schedule_parse(const char *text, struct gn_schedule *out) {
+bool gn_schedule_parse(const char *text, const char *without, struct gn_schedule *out) {
     struct gn_schedule made = {0};
     uint8_t days = 0;
     *out = made;
-    if (strcmp(text, "always") == 0) return true;
+    if (strcmp(text, without) == 0) return true;
     for (const char *at = text;; at++) {
         skip_spaces(&at);
         if (*at >= 'a' && !parse_days(&at, &days)) return false;
@@ -81,8 +81,9 @@ bool gn_schedule_parse(const char *text, struct gn_schedule *out) {
     return true;
 }
 
-void gn_schedule_text(const struct gn_schedule *schedule, char *out, size_t size) {
-    size_t used = (size_t)snprintf(out, size, "%s", schedule->count ? "" : "always");
+void gn_schedule_text(const struct gn_schedule *schedule, const char *without, char *out,
+                      size_t size) {
+    size_t used = (size_t)snprintf(out, size, "%s", schedule->count ? "" : without);
     for (int i = 0; i < schedule->count; i++) {
         const struct gn_schedule_span *span = &schedule->spans[i];
         for (int day = 1; day <= DAYS && used < size; day++)

@@ -13,7 +13,7 @@
 #include <stdint.h>
 
 enum { GN_SCHEDULE_SPANS_MAX = 16 };
-struct gn_schedule { /* zeroed: always on */
+struct gn_schedule { /* zeroed: no spans, which is as good as always on */
     int count;
     struct gn_schedule_span {
         uint8_t days;              /* bits 1 << day, Sunday 0 */
@@ -21,10 +21,11 @@ struct gn_schedule { /* zeroed: always on */
     } spans[GN_SCHEDULE_SPANS_MAX];
 };
 
-/* "always", or spans with a comma between two. Days: names as mon, or mon-fri, or several with
- * commas; none: every day. */
-bool gn_schedule_parse(const char *text, struct gn_schedule *out);
-void gn_schedule_text(const struct gn_schedule *schedule, char *out, size_t size);
+/* Spans with a comma between two. Days: names as mon, or mon-fri, or several with commas; none:
+ * every day. `without`: the word for no spans, "always" or "never", whichever that means. */
+bool gn_schedule_parse(const char *text, const char *without, struct gn_schedule *out);
+void gn_schedule_text(const struct gn_schedule *schedule, const char *without, char *out,
+                      size_t size);
 /* At that time, in seconds since 1970. */
 bool gn_schedule_is_on(const struct gn_schedule *schedule, int64_t time_s);
 /* The first time after that at which it switches; INT64_MAX: not within eight days. */

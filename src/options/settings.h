@@ -158,7 +158,8 @@ struct gn_kiosk_settings {
     int64_t caption_ns;
 };
 struct gn_schedule_settings {
-    struct gn_schedule on;
+    struct gn_schedule on, dim;
+    double dim_to;
     int off_is_black, clock_trusted; /* 0, 1 */
     int64_t wake_ns;
 };

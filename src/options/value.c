@@ -194,7 +194,7 @@ static bool parse_value(const struct gn_option_row *row, const char *text, void 
         return true;
     }
     case GN_KIND_LIMIT: return parse_limit(row, text, field, arena);
-    case GN_KIND_HOURS: return gn_schedule_parse(text, field);
+    case GN_KIND_HOURS: return gn_schedule_parse(text, row->fallback, field);
     case GN_KIND_COUNT: break;
     }
     return false;
@@ -309,7 +309,7 @@ void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) 
         snprintf(out, size, "%s (empty, or more than %d of them)", row->value, GN_SCENES_MAX);
         break;
     case GN_KIND_HOURS:
-        snprintf(out, size, "always, or hours as mon-fri 08:00-20:00, sat 10:00-18:00");
+        snprintf(out, size, "%s, or hours as mon-fri 08:00-20:00, sat 10:00-18:00", row->fallback);
         break;
     case GN_KIND_LIMIT:
         snprintf(out, size, "NAME=VALUE with a whole number from %.0f to %.0f, at most %d times",
@@ -353,7 +353,7 @@ void gn_value_text(const struct gn_option_row *row, const void *field, char *out
         else
             snprintf(out, size, "%.9g,%.9g,%.9g", point[0], point[1], point[2]);
         break;
-    case GN_KIND_HOURS: gn_schedule_text(field, out, size); break;
+    case GN_KIND_HOURS: gn_schedule_text(field, row->fallback, out, size); break;
     case GN_KIND_FLAG: snprintf(out, size, "%s", *(const bool *)field ? "yes" : "no"); break;
     case GN_KIND_INT: snprintf(out, size, "%d", *(const int *)field); break;
     case GN_KIND_NUMBER: snprintf(out, size, "%.9g", *(const double *)field); break;

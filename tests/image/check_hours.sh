@@ -1,8 +1,9 @@
 #!/bin/bash
 # [schedule] of a kiosk that runs: off outside of its hours by either way, lit by a command
-# for a while, on while the clock is not believed, and what the status says of it.
+# for a while, on while the clock is not believed, darker in its hours, and what the status says of it.
 set -u
 gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
+compare=$(realpath "${BUILD:-build/release}/tests/tool_compare")
 folder=$(mktemp -d)
 kiosk=''
 trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
@@ -65,9 +66,52 @@ says 'schedule.on: no'
 grep -q '^screen.lit: yes' status || complain 'black is switched off'
 stop
 
-sed -i 's/clock = trusted/clock = sometimes/' kiosk.ini
+# darker: a white scene is as one of .3 of its light, and white again after those hours
+colour() {
+    cat > "$1.gltf" << END
+{"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_unlit"],
+"scenes":[{"nodes":[0],"extras":{"gnomon_background":[$2]}}],
+"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[$2,1]},"extensions":{"KHR_materials_unlit":{}}}],
+"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA"}],
+"bufferViews":[{"buffer":0,"byteLength":36}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0,1]}]}
+END
+    "$gnomon" render "$1.gltf" --size 64x36 --shadow none --msaa 0 -o "$1.png" || complain "render $1"
+}
+colour white 1,1,1
+colour grey 0.3,0.3,0.3
+# shows PICTURE: within a while
+shows() {
+    for _ in $(seq 100); do
+        ctl screenshot now.png > /dev/null 2>&1 && "$compare" now.png "$1.png" > out 2>&1 && return
+        sleep 0.1
+    done
+    complain "it is not $1: $(cat out)"
+}
+dims() { # HOURS
+    printf '%s\n' '[scene]' 'file = white.gltf' '[render]' 'shadow = none' '[kiosk]' 'captions = no' '[schedule]' \
+        "dim = $1" 'clock = trusted' > kiosk.ini
+}
+dims 00:00-24:00
+"$gnomon" show -c kiosk.ini --backend egl --size 64x36 --socket "$folder/ctl" > kiosk.out 2> kiosk.err &
+kiosk=$!
+says 'schedule.dim: yes'
+shows grey
+dims "$(date -d '+2 hours' +%H:%M)-$(date -d '+3 hours' +%H:%M)"
+ctl reload > /dev/null
+says 'schedule.dim: no'
+shows white
+sed -i 's/clock = trusted/dim_to = 2/' kiosk.ini
+ctl reload > /dev/null 2> err && complain 'more light than there is'
+stop
+
+printf '%s\n' '[schedule]' 'clock = sometimes' > kiosk.ini
 timeout 60 "$gnomon" show --check kiosk.ini > out 2> err && complain 'a wrong clock is taken'
-grep -q 'kiosk.ini:5: clock: "sometimes" is not one of checked, trusted' err || complain "$(cat err)"
+grep -q 'kiosk.ini:2: clock: "sometimes" is not one of checked, trusted' err || complain "$(cat err)"
+printf '%s\n' '[schedule]' 'dim = always' > kiosk.ini
+timeout 60 "$gnomon" show --check kiosk.ini > out 2> err && complain 'always dim is taken, which means never'
+grep -q 'kiosk.ini:2: dim: "always" is not never, or hours as' err || complain "$(cat err)"
 printf '%s\n' '[schedule]' 'on = mon-fri 8-20' > kiosk.ini
 timeout 60 "$gnomon" show --check kiosk.ini > out 2> err && complain 'wrong hours are taken'
 grep -q 'kiosk.ini:2: on: "mon-fri 8-20" is not always, or hours as' err || complain "$(cat err)"

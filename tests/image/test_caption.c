@@ -298,6 +298,40 @@ static void test_turned(void **state) {
     }
 }
 
+/* With that share of its light, of what was drawn of each target. */
+static void expect_dimmed(float left, const uint8_t before[PIXELS][4]) {
+    const bool stores_light = encodes() && !opts.unencoded;
+    for (size_t i = 0; i < PIXELS; i++)
+        for (int k = 0; k < 3; k++) {
+            const double was = before[i][k] / 255.0;
+            const double wanted = stores_light ? srgb_from_linear(linear_from_srgb(was) * left)
+                                               : was * srgb_from_linear(left);
+            if (fabs(shown[i][k] - 255 * wanted) > 2.5)
+                fail_msg("%g at %zu, %zu: %d, not %.1f of %d", left, i % WIDTH, i / WIDTH,
+                         shown[i][k], 255 * wanted, before[i][k]);
+        }
+}
+
+static void test_a_dimmed_picture_has_less_light(void **state) {
+    (void)state;
+    static const float shares[] = {0.9f, 0.3f, 0.02f};
+    for (int unencoded = 0; unencoded < 2; unencoded++) {
+        opts.unencoded = unencoded;
+        draw(NULL, bare);
+        draw(run_at(0), other);
+        for (int i = 0; i < 3; i++) {
+            opts.dimmed = 1.0f - shares[i];
+            draw(NULL, shown);
+            expect_dimmed(shares[i], bare);
+            draw(run_at(0), shown);
+            expect_dimmed(shares[i], other);
+        }
+        opts.dimmed = 0.0f;
+        draw(NULL, shown);
+        assert_memory_equal(shown, bare, sizeof bare);
+    }
+}
+
 static void test_the_pass_says_where_it_draws(void **state) {
     (void)state;
     draw(NULL, bare);
@@ -350,6 +384,7 @@ int main(void) {
         TEST(test_aovs_have_none),
         TEST(test_over_many_lights),
         TEST(test_turned),
+        TEST(test_a_dimmed_picture_has_less_light),
         TEST(test_the_pass_says_where_it_draws),
         TEST(test_frames_make_nothing),
         TEST(test_a_program_can_be_made_before),

@@ -20,7 +20,7 @@ static void set_zone(const char *zone) {
 
 static struct gn_schedule parsed(const char *text) {
     struct gn_schedule schedule;
-    if (!gn_schedule_parse(text, &schedule)) fail_msg("not taken: %s", text);
+    if (!gn_schedule_parse(text, "always", &schedule)) fail_msg("not taken: %s", text);
     return schedule;
 }
 
@@ -37,12 +37,13 @@ static void texts_are_read_and_written(void **state) {
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         const struct gn_schedule schedule = parsed(texts[i][0]);
         char out[200];
-        gn_schedule_text(&schedule, out, sizeof out);
+        gn_schedule_text(&schedule, "always", out, sizeof out);
         assert_string_equal(out, texts[i][1]);
         const struct gn_schedule again = parsed(out);
         assert_memory_equal(&again, &schedule, sizeof again);
     }
     static const char *const bad[] = {"",
+                                      "always",
                                       "mon",
                                       "mon-fri",
                                       "8-20",
@@ -60,7 +61,7 @@ static void texts_are_read_and_written(void **state) {
                                       "-1:00-2:00"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct gn_schedule unused;
-        if (gn_schedule_parse(bad[i], &unused)) fail_msg("taken: %s", bad[i]);
+        if (gn_schedule_parse(bad[i], "never", &unused)) fail_msg("taken: %s", bad[i]);
     }
 }
 

@@ -127,11 +127,11 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
         json_object_set_new(reply, "rollback",
                             gn_json_make_text(s->config.past[0] ? s->config.past : "(configured)"));
     const struct gn_schedule *hours = &o->settings->schedule.on;
-    if (hours->count > 0) {
+    if (hours->count > 0 || o->settings->schedule.dim.count > 0) {
         const int64_t next_s = gn_schedule_next(hours, time(NULL));
         json_object_set_new(reply, "schedule",
-                            json_pack("{s:b, s:b, s:I}", "on", !s->kiosk.asleep, "clock",
-                                      s->hours.is_set, "next",
+                            json_pack("{s:b, s:b, s:b, s:I}", "on", !s->kiosk.asleep, "dim",
+                                      s->hours.dims, "clock", s->hours.is_set, "next",
                                       (json_int_t)(next_s == INT64_MAX ? 0 : next_s)));
     }
     json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
