@@ -19,6 +19,7 @@
 #define PATIENCE_NS (60 * GN_NS_PER_S)
 
 static char folder[100], good[300], other[300];
+static bool remembers; /* kiosks have a state */
 static struct gn_warnings warnings;
 
 static const char *in_folder(const char *name) {
@@ -29,8 +30,9 @@ static const char *in_folder(const char *name) {
 
 static void write_config(const char *scene) {
     char text[500];
-    snprintf(text, sizeof text, "[scene]\nfile = %s\nturntable = 10\n[render]\nshadow = hard\n",
-             scene);
+    snprintf(text, sizeof text,
+             "[scene]\nfile = %s\nturntable = 10\n[render]\nshadow = hard\n[kiosk]\nstate = %s\n",
+             scene, remembers ? "state" : "no");
     help_write(folder, "kiosk.ini", text);
 }
 
@@ -247,6 +249,32 @@ static void the_first_picture_does_not_wait_for_the_first_scene(void **state) {
     gn_show_close(show);
 }
 
+/* Of a state: the second of both scenes that were shown last, since the first is gone. */
+static void a_first_scene_that_fails_late_is_replaced_by_the_last_good_one(void **state) {
+    (void)state;
+    struct gn_state last = {.sequence = 1, .scene = "/none.glb"};
+    struct gn_err err = {0};
+    snprintf(last.past, sizeof last.past, "%s", other);
+    assert_true(gn_state_save(&gn_state_disk, in_folder("state"), 0, &last, &err));
+    help_write(folder, "gnomon-import", "#!/bin/sh\nsleep 2\nexit 1\n");
+    chmod(in_folder("gnomon-import"), 0755);
+    remembers = true;
+    struct gn_show *show = open_show(in_folder("slow.obj"));
+    remembers = false;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    assert_true(show->reload.first);
+    while (show->reload.first) {
+        step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+    frames(show, 2);
+    assert_true(is_shown(show, other));
+    assert_non_null(strstr(show->config.error, "slow.obj: "));
+    assert_non_null(strstr(show->config.error, " (showing the last good scene)"));
+    assert_string_equal(show->memory.state.scene, "/none.glb"); /* it may come back */
+    gn_show_close(show);
+}
+
 static void the_end_does_not_wait_for_the_first_scene(void **state) {
     (void)state;
     write_importer(false);
@@ -267,6 +295,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(frames_go_on_while_the_scene_of_a_reload_is_uploaded),
         cmocka_unit_test(a_bad_reload_keeps_the_scene),
         cmocka_unit_test(the_first_picture_does_not_wait_for_the_first_scene),
+        cmocka_unit_test(a_first_scene_that_fails_late_is_replaced_by_the_last_good_one),
         cmocka_unit_test(the_end_does_not_wait_for_the_first_scene),
     };
     return cmocka_run_group_tests(tests, begin, end);

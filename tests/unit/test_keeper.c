@@ -1,0 +1,128 @@
+/* The thread that saves the state: a disk that does not answer holds nobody up but the end. */
+#include "unit/check.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "core/clock.h"
+#include "kiosk/keeper.h"
+
+static struct gn_err err;
+
+/* A disk that waits in fsync for a byte of a pipe, and keeps what is written. */
+static struct slow {
+    int pipe[2];
+    char text[2][GN_STATE_TEXT_MAX]; /* of both generations */
+    char fresh[GN_STATE_TEXT_MAX];
+    size_t size;
+    int reason; /* of a create that fails; 0: none does */
+} disk;
+
+static ssize_t read_file(void *user, const char *path, char *out, size_t size) {
+    (void)user, (void)path, (void)out, (void)size;
+    errno = ENOENT;
+    return -1;
+}
+static int create(void *user, const char *path) {
+    (void)user, (void)path;
+    disk.size = 0;
+    errno = disk.reason;
+    return disk.reason ? -1 : 1000;
+}
+static ssize_t write_data(void *user, int fd, const void *data, size_t size) {
+    (void)user, (void)fd;
+    memcpy(disk.fresh + disk.size, data, size);
+    disk.fresh[disk.size += size] = 0;
+    return (ssize_t)size;
+}
+static int flush(void *user, int fd) {
+    char byte;
+    (void)user, (void)fd;
+    return read(disk.pipe[0], &byte, 1) == 1 ? 0 : -1;
+}
+static int close_fd(void *user, int fd) {
+    (void)user, (void)fd;
+    return 0;
+}
+static int rename_to(void *user, const char *from, const char *to) {
+    (void)user, (void)from;
+    memcpy(disk.text[strcmp(to, "s.2") == 0], disk.fresh, sizeof disk.fresh);
+    return 0;
+}
+static int flush_folder(void *user, const char *path) {
+    (void)user, (void)path;
+    return 0;
+}
+
+static const struct gn_state_files files = {.read_file = read_file,
+                                            .create = create,
+                                            .write = write_data,
+                                            .fsync = flush,
+                                            .close = close_fd,
+                                            .rename = rename_to,
+                                            .fsync_folder = flush_folder};
+
+static void let_go(void) { assert_int_equal(write(disk.pipe[1], "x", 1), 1); }
+
+static bool finish(struct gn_keeper *keeper) {
+    struct pollfd p = {.fd = gn_keeper_fd(keeper), .events = POLLIN};
+    bool ok = false;
+    assert_int_equal(poll(&p, 1, 10000), 1);
+    assert_true(gn_keeper_take(keeper, &ok, &err));
+    return ok;
+}
+
+static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
+    (void)state;
+    bool ok = false;
+    struct gn_state s = {.sequence = 7, .mode = "A"};
+    struct gn_keeper *keeper = gn_keeper_create(&files, "s", 1, &err);
+    assert_int_equal(pipe(disk.pipe), 0);
+    assert_non_null(keeper);
+    assert_true(gn_keeper_start(keeper, &s, &err)); /* or this test does not go on */
+    snprintf(s.mode, sizeof s.mode, "changed meanwhile");
+    usleep(20000);
+    assert_true(gn_keeper_is_busy(keeper));
+    assert_false(gn_keeper_take(keeper, &ok, &err));
+    let_go();
+    assert_true(finish(keeper));
+    assert_false(gn_keeper_is_busy(keeper));
+    assert_non_null(strstr(disk.text[1], "mode A\n"));
+
+    /* the next one goes to the other generation */
+    s = (struct gn_state){.sequence = 8, .mode = "B"};
+    assert_true(gn_keeper_start(keeper, &s, &err));
+    let_go();
+    assert_true(finish(keeper));
+    assert_non_null(strstr(disk.text[0], "mode B\n"));
+    assert_non_null(strstr(disk.text[1], "mode A\n"));
+
+    /* one that fails stays there, and the end waits for the one that is under way */
+    disk.reason = ENOSPC;
+    assert_true(gn_keeper_start(keeper, &s, &err));
+    assert_false(finish(keeper));
+    assert_non_null(strstr(err.text, "s.new: cannot write: No space left"));
+    disk.reason = 0;
+    s.sequence = 9;
+    assert_true(gn_keeper_start(keeper, &s, &err));
+    s = (struct gn_state){.sequence = 10, .mode = "C"};
+    let_go();
+    let_go();
+    assert_true(gn_keeper_finish(keeper, &s, &err));
+    assert_non_null(strstr(disk.text[1], "sequence 9\n"));
+    assert_non_null(strstr(disk.text[0], "sequence 10\n"));
+    gn_keeper_destroy(keeper);
+    gn_keeper_destroy(NULL);
+    close(disk.pipe[0]);
+    close(disk.pipe[1]);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_disk_that_does_not_answer_holds_nobody_up),
+    };
+    return RUN(tests);
+}
