@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-CHECKS := check-angle check-board check-board-arm64 check-deb check-gpus check-gpiod2 check-modelviewer check-tangents
+CHECKS := check-angle check-board check-board-arm64 check-deb check-service check-gpus check-gpiod2 check-modelviewer check-tangents
 .PHONY: all no-import tests sanitized completion dist deb run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme options-page deps \
         syntax lint lint-changed format man install uninstall help clean FORCE
 
@@ -80,6 +80,7 @@ DEPS_check-gpiod2 := build run test board
 DEPS_check-modelviewer := build run test
 DEPS_check-tangents := build run test
 DEPS_check-deb := build deb deb-test
+DEPS_check-service := build deb deb-test test board
 DEPS_deb := build deb
 DEPS_accept := build run test board board-arm64 gpus
 DEPS_full := $(DEPS_accept)
@@ -340,7 +341,7 @@ check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/an
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/tool_compare
 check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
-	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(sort $(wildcard tests/board/*.guest)),tests/board/smoke.guest)
+	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(filter-out %/service.guest,$(sort $(wildcard tests/board/*.guest))),tests/board/smoke.guest)
 	$(if $(GN_FULL),+$(SUB) check-board-arm64)
 # Not built where the packages to build against cannot be had: the tests say so, and skip.
 ARM64_B := $(O)/aarch64-linux-gnu-$(CONFIG)
@@ -395,7 +396,7 @@ accept:
 	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
 	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) \
 	    $(filter-out %/accept_bench.sh,$(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))) \
-	    GN_FULL= tests/image/accept_bench.sh $(filter-out %/smoke.guest %/lab.guest,$(sort $(wildcard tests/board/*.guest))) \
+	    GN_FULL= tests/image/accept_bench.sh $(filter-out %/smoke.guest %/lab.guest %/service.guest,$(sort $(wildcard tests/board/*.guest))) \
 	    HOST_BUILD=$(O)/release BUILD=$(ARM64_B) ARCH=arm64 tests/board/smoke.guest ARCH= \
 	    BUILD=$(GPIOD2) SUITE=trixie tests/board/units.sh tests/board/buttons.guest SUITE= HOST_BUILD= \
 	    BUILD=$(GPUS_B) GPUS=pi4,g610,a618 tests/gpus/gpus.sh
@@ -409,6 +410,7 @@ full:
 	@tests/run.sh BUILD=$(O)/release GN_FULL=1 tests/image/accept_bench.sh
 	+$(SUB) GN_FULL=1 check-angle
 	+$(SUB) GN_FULL=1 check-board
+	+$(SUB) check-service
 	+$(SUB) GN_FULL=1 check-gpiod2
 	+$(SUB) GN_FULL=1 check-gpus
 # the table of keys in src/options/README.md
@@ -469,6 +471,9 @@ install: all
 	    sh board/install.sh install
 deb: dist
 	@O='$(O)' VERSION='$(VERSION)' sh board/deb.sh
+# the packages as a service, in a machine with systemd
+check-service: deb $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
+	@SUITE='$(SUITE)' tests/run.sh BUILD=$(B) tests/board/service.guest
 check-deb:
 	@O='$(O)' VERSION='$(VERSION)' tests/board/packages.sh
 

@@ -1,7 +1,7 @@
 #!/bin/busybox sh
 # shellcheck shell=dash
 # The machine's first program: the host's root, read-only over 9p, under a layer of memory, then the
-# test in it. No udevd, no systemd: a bare board.
+# test in it. No udevd, no systemd: a bare board; or, with gnomon.systemd on the kernel's line, both.
 export PATH=/bin
 busybox mkdir -p /proc /sys /dev /lower /upper /new
 busybox mount -t proc proc /proc # where it finds itself
@@ -28,6 +28,30 @@ mount -t tmpfs -o size=80% tmpfs /upper
 mkdir /upper/files /upper/work
 mount -t overlay -o lowerdir=/lower,upperdir=/upper/files,workdir=/upper/work overlay /new
 mkdir -p /new/proc /new/sys /new/dev /new/run /new/tmp /new/out
+
+# With systemd (a root of service-root.sh): it mounts the rest, and the test is a service of its.
+if grep -qw gnomon.systemd /proc/cmdline; then
+    share out /new/out rw
+    mkdir -p /new/opt/board /new/etc/systemd/system/multi-user.target.wants
+    cp -R /modules /bin/busybox /new/opt/board/
+    load gpu
+    unit=gnomon-test.service
+    cat > /new/etc/systemd/system/$unit << 'END'
+[Unit]
+After=basic.target systemd-logind.service
+[Service]
+Type=oneshot
+Environment=HOME=/root TERM=linux PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
+StandardOutput=append:/out/log
+StandardError=inherit
+ExecStart=/bin/sh -c 'cp -R /opt/board/. /run/ && exec /bin/bash /out/guest.sh'
+ExecStopPost=/bin/sh -c 'sync && systemctl poweroff --force --force'
+TimeoutStartSec=infinity
+END
+    ln -s ../$unit /new/etc/systemd/system/multi-user.target.wants/$unit
+    umount /sys
+    exec switch_root /new /lib/systemd/systemd
+fi
 for folder in proc sys dev; do mount -o bind "/$folder" "/new/$folder"; done
 mkdir -p /dev/pts /dev/shm
 mount -t devpts devpts /new/dev/pts

@@ -39,8 +39,18 @@ status=$?
 cat "$reason"
 rm -f "$reason"
 [ "$status" = 0 ] || exit "$status"
-root=/
-[ "$arch${SUITE:-}" = amd64 ] || root=$("$here/sysroot.sh" "$arch") || exit
+root=/ systemd=''
+if grep -q '^# systemd: yes' "$script"; then
+    systemd=gnomon.systemd
+    reason=$(mktemp)
+    root=$(O=$(dirname "$build") "$here/service-root.sh" 2> "$reason")
+    status=$?
+    cat "$reason"
+    rm -f "$reason"
+    [ "$status" = 0 ] || exit "$status"
+elif [ "$arch${SUITE:-}" != amd64 ]; then
+    root=$("$here/sysroot.sh" "$arch") || exit
+fi
 
 [ -x "$gnomon" ] || { echo "$gnomon is not built" && exit 1; }
 out=$(realpath -m "$build/board/$test")
@@ -49,6 +59,11 @@ mkdir -p "$out/bin"
 cp "$gnomon" "$out/bin/gnomon"
 cp "$build/tests/firstflip.so" "$build/tests/keyboard" "$(dirname "$build")/selftest/lattice.glb" "$out/bin/" || exit 1
 cp "$here/guest.sh" "$out/guest.sh"
+if [ -n "$systemd" ]; then
+    mkdir "$out/debs"
+    # shellcheck disable=SC1091
+    cp "$(dirname "$build")/deb/${SUITE:-$(. /etc/os-release && echo "$VERSION_CODENAME")}"/gnomon{,-import}_*_amd64.deb "$out/debs/" || exit 1
+fi
 cp "$script" "$out/test.sh" || exit 1
 heads=$(sed -n 's/^# heads: \([12]\)$/\1/p' "$script")
 heads=${heads:-1}
@@ -97,7 +112,7 @@ esac
 # shellcheck disable=SC2054
 machine+=(
     -kernel "$parts/vmlinuz" -initrd "$out/initrd"
-    -append "console=$console quiet panic=-1 mitigations=off audit=0 vt.global_cursor_default=0 $(sed -n 's/^# kernel: //p' "$script") ${KERNEL_ARGS:-}"
+    -append "console=$console quiet panic=-1 mitigations=off audit=0 vt.global_cursor_default=0 $systemd $(sed -n 's/^# kernel: //p' "$script") ${KERNEL_ARGS:-}"
     -serial "file:$out/console" -nic none
     -fsdev "local,id=root,path=$root,security_model=none,readonly=on,multidevs=remap"
     -device virtio-9p-pci,fsdev=root,mount_tag=root
