@@ -27,7 +27,10 @@ static void add_dimming(struct gn_frame *frame, float share) {
     float left = light;
     if (encodes)
         left = light <= 0.0031308f ? 12.92f * light : 1.055f * powf(light, 1.0f / 2.4f) - 0.055f;
-    for (; left < shade; left /= shade) add_rectangle(frame, &all, 1.0f);
+    while (left < shade) {
+        add_rectangle(frame, &all, 1.0f);
+        left /= shade;
+    }
     add_rectangle(frame, &all, (1.0f - left) / (1.0f - shade));
 }
 

@@ -134,9 +134,10 @@ static bool read_one(const struct gn_state_files *files, const char *path, struc
 
 enum gn_state_found gn_state_read(const struct gn_state_files *files, const char *path,
                                   struct gn_state *out, int *older, struct gn_err *err) {
-    struct gn_state other;
+    struct gn_state other = {0};
     struct gn_err why[2] = {0};
     bool gone[2];
+    *out = (struct gn_state){0};
     const bool first = read_one(files, name_of(path, suffixes[0]).text, out, &gone[0], &why[0]);
     const bool second = read_one(files, name_of(path, suffixes[1]).text, &other, &gone[1], &why[1]);
     *older = first && (!second || other.sequence <= out->sequence);
