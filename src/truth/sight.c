@@ -157,18 +157,19 @@ bool gn_truth_cast(struct gn_truth_frame *frame, struct gn_truth_pixel *pixels,
                    struct gn_err *err) {
     if (opts->camera >= scene->camera_count || opts->light >= scene->light_count)
         return gn_fail(err, "has no camera %u or no light %u", opts->camera, opts->light);
-    struct gn_pose pose;
-    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    gn_ray_eye_init(&frame->eye, &pose, opts->camera, opts->width_px, opts->height_px);
-    gn_ray_lamp_init(&frame->lamp, &pose, opts->light);
+    struct gn_pose first;
+    const struct gn_pose *pose = opts->pose ? opts->pose : &first;
+    if (!opts->pose) gn_pose_init(&first, scene, GN_POSE_DEFAULT);
+    gn_ray_eye_init(&frame->eye, pose, opts->camera, opts->width_px, opts->height_px);
+    gn_ray_lamp_init(&frame->lamp, pose, opts->light);
     plane_axes(frame);
     struct gn_raycast rays;
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, pose);
     struct job job = {.rays = &rays, .frame = frame, .pixels = pixels};
     cast_all(&job, opts->threads);
     frame->extent = fit_extent(&rays, frame, pixels);
     gn_raycast_finish(&rays);
-    gn_pose_finish(&pose);
+    if (!opts->pose) gn_pose_finish(&first);
     return true;
 }
 

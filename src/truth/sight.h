@@ -33,9 +33,10 @@ struct gn_truth_opts {       /* zero means the default */
     uint32_t camera, light;
     int threads;   /* 2 */
     bool no_cache; /* of what keeps it in a file */
+    const struct gn_pose *pose; /* NULL: at time 0, with the clips that are on by default. For
+                                   gn_truth_make() and gn_truth_cast() only */
 };
 
-/* At time 0, with the clips that are on by default. */
 bool gn_truth_make(struct gn_truth *truth, const struct gn_scene *scene,
                    const struct gn_truth_opts *opts, struct gn_err *err);
 void gn_truth_finish(struct gn_truth *truth);

@@ -76,11 +76,24 @@ static void GL_APIENTRY hear(GLenum source, GLenum type, GLuint id, GLenum sever
         gn_cost_read(l->into, message);
 }
 
+static struct gn_listener *asked; /* the driver's functions take no pointer of ours */
+static PFNGLCHECKFRAMEBUFFERSTATUSPROC check_status;
+
+static GLenum GL_APIENTRY count_framebuffer(GLenum target) {
+    const GLenum status = check_status(target);
+    asked->framebuffers++;
+    asked->incomplete += status != GL_FRAMEBUFFER_COMPLETE;
+    return status;
+}
+
 void gn_cost_listen(struct gn_listener *listener, struct gn_gl *gl) {
     listener->gl = gl;
     GL(gl, Enable)(GL_DEBUG_OUTPUT_KHR);
     GL(gl, Enable)(GL_DEBUG_OUTPUT_SYNCHRONOUS_KHR);
     GL(gl, DebugMessageCallback)(hear, listener);
+    asked = listener;
+    check_status = gl->fn.CheckFramebufferStatus;
+    gl->fn.CheckFramebufferStatus = count_framebuffer;
 }
 
 bool gn_cost_hash(const struct gn_gl *gl, const struct gn_plan *plan,

@@ -17,8 +17,10 @@ struct gn_listener {
     struct gn_gl *gl;
     struct gn_cost *into; /* NULL: what is compiled is of no program of ours */
     unsigned errors;
+    unsigned framebuffers, incomplete; /* every one that is asked about */
 };
-/* From now on the listener hears what the driver says. Errors still reach gn_gl_error_check(). */
+/* From now on the listener hears what the driver says, and counts framebuffers; one at a time.
+ * Errors still reach gn_gl_error_check(). */
 void gn_cost_listen(struct gn_listener *listener, struct gn_gl *gl);
 /* Whether both of its stages were compiled for the GPU. */
 bool gn_cost_is_whole(const struct gn_cost *cost);

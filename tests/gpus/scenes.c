@@ -2,10 +2,11 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "unit/gltf_maker.h"
 
-enum { FLOATS = 5126, SHORTS = 5123 };
+enum { FLOATS = 5126, SHORTS = 5123, BYTES = 5121 };
 
 /* Base, roughness, emission and occlusion are all read from one texture. */
 static const char *const materials[] = {
@@ -104,6 +105,35 @@ static void add_card(struct gn_maker *m, const char *primitive, int material, fl
     gn_maker_add(m, "nodes", json);
 }
 
+/* Cards of material 0 that deform, each in another way. */
+static void add_posed(struct gn_maker *m, const struct square *square) {
+    static const uint8_t joints[16] = {0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1};
+    static const float eighths[16] = {.125f, .125f, .125f, .125f, .125f, .125f, .125f, .125f,
+                                      .125f, .125f, .125f, .125f, .125f, .125f, .125f, .125f};
+    static const float lift[12] = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
+    char four[60], eight[120], target[60], json[500];
+    const int j = gn_maker_accessor(m, "VEC4", BYTES, 4, joints, sizeof joints, NULL);
+    const int w = gn_maker_accessor(m, "VEC4", FLOATS, 4, eighths, sizeof eighths, NULL);
+    const int t = gn_maker_accessor(m, "VEC3", FLOATS, 4, lift, sizeof lift, NULL);
+    const int joint = gn_maker_add(m, "nodes", "{'translation':[0,1,0]}");
+    gn_maker_add(m, "nodes", "{'translation':[0,1.2,0]}");
+    snprintf(json, sizeof json, "[{'joints':[%d,%d]}]", joint, joint + 1);
+    gn_maker_set(m, "skins", json);
+    snprintf(four, sizeof four, ",'JOINTS_0':%d,'WEIGHTS_0':%d", j, w);
+    snprintf(eight, sizeof eight, "%s,'JOINTS_1':%d,'WEIGHTS_1':%d", four, j, w);
+    snprintf(target, sizeof target, ",'targets':[{'POSITION':%d,'NORMAL':%d}]", t, t);
+    const char *const skins[] = {four, eight, "", four}, *const targets[] = {"", "", target,
+                                                                             target};
+    for (int i = 0; i < 4; i++) {
+        snprintf(json, sizeof json, "{'primitives':[{%.*s%s}%s,'material':0}]}",
+                 (int)strlen(square->plain) - 1, square->plain, skins[i], targets[i]);
+        const int mesh = gn_maker_add(m, "meshes", json);
+        snprintf(json, sizeof json, "{'mesh':%d%s%s,'translation':[0,1.5,0]}", mesh,
+                 *skins[i] ? ",'skin':0" : "", *targets[i] ? ",'weights':[0.5]" : "");
+        gn_maker_add(m, "nodes", json);
+    }
+}
+
 static const char *const kinds[] = {
     [GN_LIGHT_DIRECTIONAL] = "'type':'directional','intensity':2",
     [GN_LIGHT_POINT] = "'type':'point','intensity':30",
@@ -132,6 +162,7 @@ static void add_lights(struct gn_maker *m, enum gn_gpu_scene scene) {
     switch (scene) {
     case GN_GPU_SUN:
     case GN_GPU_FEW_MATERIALS:
+    case GN_GPU_POSED:
     case GN_GPU_LOOK:
     case GN_GPU_MATERIALS: add_lamp(m, lights, GN_LIGHT_DIRECTIONAL, NULL, false, 0); break;
     case GN_GPU_POINT: add_lamp(m, lights, GN_LIGHT_POINT, NULL, false, 0); break;
@@ -185,6 +216,7 @@ struct gn_scene *gn_gpu_scene_make(enum gn_gpu_scene scene) {
             add_card(&m, square.plain, i, x, y, 0.5f);
         if (all || (few && i == ALL)) add_card(&m, square.colored, i, x, y + 1.1f, 0.5f);
     }
+    if (scene == GN_GPU_POSED) add_posed(&m, &square);
     if (scene == GN_GPU_CROWD) add_card(&m, square.plain, GLASS, 0, 2, 1);
     add_lights(&m, scene);
     add_scene(&m);

@@ -21,7 +21,7 @@
 #include "gpus/scenes.h"
 
 struct bench {
-    bool full, looks, only_looks;
+    bool full, looks, only_looks, only_posed;
     int turn;
     const char *known; /* file, or NULL */
     struct gn_display display;
@@ -29,7 +29,7 @@ struct bench {
     struct gn_listener listener;
     struct gn_program_key *seen; /* drawn with, and its cost printed */
     uint32_t seen_count, seen_room;
-    unsigned framebuffers, incomplete, plans, compiled, failures;
+    unsigned plans, compiled, failures;
     uint32_t kinds, targets, outputs; /* bits of what was there */
 };
 
@@ -43,24 +43,6 @@ static bool fail(struct bench *b, const char *what, const char *why) {
     printf("FAIL\t%s: %s\n", what, why);
     b->failures++;
     return false;
-}
-
-/* ---- framebuffers: every one that is asked about ------------------------------------------- */
-
-static struct bench *asked; /* the driver's functions take no pointer of ours */
-static PFNGLCHECKFRAMEBUFFERSTATUSPROC check_status;
-
-static GLenum GL_APIENTRY count_framebuffer(GLenum target) {
-    const GLenum status = check_status(target);
-    asked->framebuffers++;
-    asked->incomplete += status != GL_FRAMEBUFFER_COMPLETE;
-    return status;
-}
-
-static void count_framebuffers(struct bench *b) {
-    asked = b;
-    check_status = b->gl->fn.CheckFramebufferStatus;
-    b->gl->fn.CheckFramebufferStatus = count_framebuffer;
 }
 
 /* ---- programs, of which a plan may be to test some only ------------------------------------- */
@@ -417,6 +399,15 @@ static void try_looks(struct bench *b) {
     stage_close(&s);
 }
 
+/* Vertices that follow joints, and that targets move: of things and of what casts. */
+static void try_posed(struct bench *b) {
+    struct stage s;
+    const struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF, GN_ENCODING_AUTO);
+    stage_open(b, &s, GN_GPU_POSED);
+    draw(b, &s, &opts, EVERYTHING, "skins and targets");
+    stage_close(&s);
+}
+
 /* ---- all of it ----------------------------------------------------------------------------- */
 
 /* That nothing was left out without anybody noticing. */
@@ -431,7 +422,7 @@ static void check_cover(struct bench *b) {
         if (!(b->targets >> kind & 1)) fail(b, "targets", "no plan had one of some kind");
     for (uint32_t kind = GN_OUTPUT_SRGB8; kind <= GN_OUTPUT_AOV; kind++)
         if (!(b->outputs >> kind & 1)) fail(b, "pictures", "no plan had one of some format");
-    if (b->incomplete) fail(b, "framebuffers", "the driver calls some incomplete");
+    if (b->listener.incomplete) fail(b, "framebuffers", "the driver calls some incomplete");
     if (b->listener.errors && !b->failures) fail(b, "errors", "the driver complained");
 }
 
@@ -451,7 +442,6 @@ static bool open_bench(struct bench *b, const char *shaders) {
     b->gl->probed = UINT32_MAX; /* nothing is executed, so nothing can be proved */
     if (!(caps->has >> GN_CAP_DEBUG & 1)) return fail(b, "OpenGL ES", "it has no GL_KHR_debug");
     gn_cost_listen(&b->listener, b->gl);
-    count_framebuffers(b);
     return true;
 }
 
@@ -465,6 +455,8 @@ static const char *read_arguments(struct bench *b, int argc, char **argv) {
             b->looks = true;
         else if (strcmp(argv[i], "--only-looks") == 0) /* for who works on them */
             b->looks = b->only_looks = true;
+        else if (strcmp(argv[i], "--only-posed") == 0)
+            b->only_posed = true;
         else if (more && strcmp(argv[i], "--known") == 0)
             b->known = argv[++i];
         else if (more && strcmp(argv[i], "--turn") == 0)
@@ -481,19 +473,21 @@ int main(int argc, char **argv) {
     setvbuf(stdout, NULL, _IOLBF, 0);
     if (!open_bench(&b, shaders)) return 2;
     if (b.looks) try_looks(&b);
-    for (int which = GN_GPU_SUN; which <= GN_GPU_SPOT && !b.only_looks; which++) {
+    if (!b.only_looks) try_posed(&b);
+    const bool all = !b.only_looks && !b.only_posed;
+    for (int which = GN_GPU_SUN; which <= GN_GPU_SPOT && all; which++) {
         try_techniques(&b, (enum gn_gpu_scene)which);
         try_maps(&b, (enum gn_gpu_scene)which);
     }
-    if (!b.only_looks) {
+    if (all) {
         try_slides(&b);
         try_pictures(&b);
         check_cover(&b);
     }
     printf("DONE\t%u programs, %u of them compiled, %u plans, %u framebuffers, %u incomplete, %u "
            "errors, %u failures\n",
-           b.seen_count, b.compiled, b.plans, b.framebuffers, b.incomplete, b.listener.errors,
-           b.failures);
+           b.seen_count, b.compiled, b.plans, b.listener.framebuffers, b.listener.incomplete,
+           b.listener.errors, b.failures);
     fflush(stdout);
     _Exit(b.failures > 0); /* no driver here is tested for how it ends */
 }

@@ -8,6 +8,7 @@
 
 struct gn_drawer {
     const char *scene;
+    int64_t time_ns;
     struct gn_stage stage;
     struct gn_options options; /* of the last picture; zeroed: none yet */
 };
@@ -17,6 +18,10 @@ struct gn_drawer *gn_drawer_create(const char *scene) {
     *drawer = (struct gn_drawer){.scene = scene};
     return drawer;
 }
+
+void gn_drawer_set_time(struct gn_drawer *drawer, int64_t time_ns) { drawer->time_ns = time_ns; }
+
+const struct gn_pose *gn_drawer_pose(const struct gn_drawer *drawer) { return &drawer->stage.pose; }
 
 static bool look(struct gn_drawer *drawer, const struct gn_settings *settings, struct gn_err *err) {
     struct gn_stage_look look;
@@ -44,7 +49,7 @@ bool gn_drawer_draw(struct gn_drawer *drawer, const char *const args[], float *r
     drawer->stage.settings = options.settings;
     gn_options_finish(&drawer->options);
     drawer->options = options;
-    return ok && gn_stage_draw(&drawer->stage, 0, NULL, err) &&
+    return ok && gn_stage_draw(&drawer->stage, drawer->time_ns, NULL, err) &&
            gn_gl_read_f32(drawer->stage.gl, rgba, err);
 }
 

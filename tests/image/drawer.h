@@ -5,10 +5,14 @@
 
 #include <stdbool.h>
 
-#include "core/err.h"
+#include "scene/pose.h"
 
 struct gn_drawer;
 struct gn_drawer *gn_drawer_create(const char *scene);
+/* Of the pictures from now on; 0 by itself. */
+void gn_drawer_set_time(struct gn_drawer *drawer, int64_t time_ns);
+/* That of the last picture. */
+const struct gn_pose *gn_drawer_pose(const struct gn_drawer *drawer);
 /* args: as render has them, up to NULL, with --size; an AOV. rgba: 4 floats for each pixel, row 0
  * on top. */
 bool gn_drawer_draw(struct gn_drawer *drawer, const char *const args[], float *rgba,
