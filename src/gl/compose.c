@@ -192,10 +192,13 @@ static void add_flags(int lights, const char *name, uint32_t bits, struct gn_gl_
  * takes derivatives, which are undefined after a discard: CUT_LAST cuts holes last where a map is
  * shared, and first elsewhere, where that saves work. SHADOW_BACKS: visibility matters where a
  * surface is turned away from the light, too. SHADOW_SPREAD: the bias takes into account how far
- * faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment shader. */
+ * faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment shader. In a
+ * pose even the faces of a mesh without smooth normals are, so there it is for all techniques. */
 static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     /* a bit per light */
     uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0, projected = 0;
+    const bool deforms =
+        key->features & (GN_FEATURE(SKIN) | GN_FEATURE(SKIN_8) | GN_FEATURE(MORPH));
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
@@ -206,7 +209,7 @@ static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text 
         if ((type->shines_around || light->cascades) && gn_technique_shades(light->technique))
             shared |= 1u << i;
         if (light->cascades) cascades |= 1u << i;
-        if (gn_techniques[light->technique].one_code) spread |= 1u << i;
+        if (gn_techniques[light->technique].one_code || deforms) spread |= 1u << i;
         if (light->cascades && gn_technique_replaces_map((enum gn_technique)light->technique))
             spans |= 1u << i;
         if (gn_techniques[light->technique].reads_both) smooth |= 1u << i;

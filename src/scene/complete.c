@@ -63,7 +63,7 @@ bool gn_scene_complete(struct gn_gltf *g) {
     const bool measured = gn_scene_measure(g, &pose);
     if (measured) gn_scene_add_floor(g, &pose);
     gn_pose_finish(&pose);
-    if (!measured) return false;
+    if (!measured || !gn_scene_add_posed_spreads(g)) return false;
     if (scene->light_count == 0) {
         /* A light from above, the front and a little left of the added camera: the three visible
          * sides of a box are lit differently. An unlit white side would have the colour of the

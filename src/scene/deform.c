@@ -222,15 +222,17 @@ uint64_t gn_deform_hash(const struct gn_deformer *d, const struct gn_item *item,
 
 /* ---- vertices ------------------------------------------------------------------------------ */
 
-static void add_deltas(const struct gn_pose *pose, const struct gn_item *item, uint32_t vertex,
-                       double p[3]) {
+/* part 0: of positions, 1: of normals. */
+static void add_deltas(const struct gn_pose *pose, const struct gn_item *item, uint32_t part,
+                       uint32_t vertex, double p[3]) {
     const struct gn_geometry *geometry = &pose->scene->geometries[item->geometry];
     const struct gn_targets *targets = geometry->targets;
     const struct gn_strip *list = &pose->scene->deformation.morphs[item->morph].list;
-    for (uint32_t i = 0; i < pose->list_counts[item->morph]; i++) {
+    for (uint32_t i = 0; i < pose->list_counts[item->morph] && part < targets->parts; i++) {
         const float *texel = *texels_at(pose, list, i);
-        const size_t first = (size_t)texel[1] * targets->parts * geometry->vertex_count;
-        const float *delta = targets->deltas[first + vertex - geometry->first_vertex];
+        const size_t row = (size_t)texel[1] * targets->parts + part;
+        const float *delta =
+            targets->deltas[row * geometry->vertex_count + vertex - geometry->first_vertex];
         for (int k = 0; k < 3; k++) p[k] += (double)texel[0] * (double)delta[k];
     }
 }
@@ -246,12 +248,10 @@ static void add_joints(const struct gn_pose *pose, const struct gn_item *item,
     }
 }
 
-void gn_pose_vertex(const struct gn_pose *pose, uint32_t index, uint32_t vertex, double out[3]) {
+static void add_rows(const struct gn_pose *pose, uint32_t index, uint32_t vertex,
+                     double rows[3][4]) {
     const struct gn_scene_buffers *b = &pose->scene->buffers;
     const struct gn_item *item = &pose->scene->items[index];
-    const float *from = b->positions + 3 * (size_t)vertex;
-    double p[3] = {(double)from[0], (double)from[1], (double)from[2]}, rows[3][4] = {{0}};
-    if (item->morph >= 0) add_deltas(pose, item, vertex, p);
     if (item->skin >= 0) {
         const size_t at = 4 * (size_t)vertex;
         const struct gn_geometry *geometry = &pose->scene->geometries[item->geometry];
@@ -262,8 +262,31 @@ void gn_pose_vertex(const struct gn_pose *pose, uint32_t index, uint32_t vertex,
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 4; c++)
                 rows[r][c] = (double)pose->items[index].world_from_item[c][r];
+}
+
+void gn_pose_vertex(const struct gn_pose *pose, uint32_t index, uint32_t vertex, double out[3]) {
+    const struct gn_item *item = &pose->scene->items[index];
+    const float *from = pose->scene->buffers.positions + 3 * (size_t)vertex;
+    double p[3] = {(double)from[0], (double)from[1], (double)from[2]}, rows[3][4] = {{0}};
+    if (item->morph >= 0) add_deltas(pose, item, 0, vertex, p);
+    add_rows(pose, index, vertex, rows);
     for (int r = 0; r < 3; r++)
         out[r] = rows[r][0] * p[0] + rows[r][1] * p[1] + rows[r][2] * p[2] + rows[r][3];
+}
+
+/* By the rows of the cofactor matrix, as normal_ws() of shaders_es/lib/vertex.glsl. */
+void gn_pose_normal(const struct gn_pose *pose, uint32_t index, uint32_t vertex, double out[3]) {
+    const struct gn_item *item = &pose->scene->items[index];
+    const float *from = pose->scene->buffers.normals + 3 * (size_t)vertex;
+    double n[3] = {(double)from[0], (double)from[1], (double)from[2]}, rows[3][4] = {{0}};
+    if (item->morph >= 0) add_deltas(pose, item, 1, vertex, n);
+    add_rows(pose, index, vertex, rows);
+    for (int r = 0; r < 3; r++) {
+        const double *u = rows[(r + 1) % 3], *v = rows[(r + 2) % 3];
+        out[r] = 0;
+        for (int k = 0; k < 3; k++)
+            out[r] += n[k] * (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
+    }
 }
 
 void gn_pose_corner(const struct gn_pose *pose, uint32_t index, uint32_t vertex, vec3 out) {

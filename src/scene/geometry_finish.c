@@ -96,6 +96,17 @@ void gn_geometry_repair_tangents(struct gn_scene *scene, size_t first, size_t co
 /* Angles under half a degree are rounding errors of the file's normals. */
 #define SPREAD_LEAST .01
 
+void gn_geometry_add_spread(struct gn_scene *scene, uint32_t vertex, const double face[3],
+                            const double normal[3]) {
+    const double length = length_of(face) * length_of(normal);
+    int16_t *spread = &scene->buffers.spreads[vertex];
+    double along = 0;
+    if (!(length > 0)) return;
+    for (int c = 0; c < 3; c++) along += face[c] * normal[c] / length;
+    const double sine = sqrt(fmax(1 - along * along, 0));
+    if (sine > SPREAD_LEAST && sine * 32767 > *spread) *spread = (int16_t)(sine * 32767);
+}
+
 void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *geometry) {
     const struct gn_scene_buffers *buffers = &scene->buffers;
     const uint32_t *index = buffers->indices + geometry->first_index;
@@ -104,14 +115,10 @@ void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *g
         cross_of(buffers->positions + 3 * (size_t)index[i],
                  buffers->positions + 3 * (size_t)index[i + 1],
                  buffers->positions + 3 * (size_t)index[i + 2], face);
-        const double length = length_of(face);
-        for (int k = 0; k < 3 && length > 0; k++) {
+        for (int k = 0; k < 3; k++) {
             const float *n = buffers->normals + 3 * (size_t)index[i + k];
-            int16_t *spread = &buffers->spreads[index[i + k]];
-            double along = 0;
-            for (int c = 0; c < 3; c++) along += face[c] / length * (double)n[c];
-            const double sine = sqrt(fmax(1 - along * along, 0));
-            if (sine > SPREAD_LEAST && sine * 32767 > *spread) *spread = (int16_t)(sine * 32767);
+            gn_geometry_add_spread(scene, index[i + k], face,
+                                   (const double[3]){(double)n[0], (double)n[1], (double)n[2]});
         }
     }
 }

@@ -280,6 +280,11 @@ size_t gn_normals_repair(const float *positions, float *normals, const uint32_t 
                          size_t corner_count);
 /* Of the vertices of a geometry, whose triangles may share them with others. */
 void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *geometry);
+/* Of one vertex, by one face around it; neither need be of unit length. */
+void gn_geometry_add_spread(struct gn_scene *scene, uint32_t vertex, const double face[3],
+                            const double normal[3]);
+/* spread.c: of what is deformed, by poses of all clips. After gn_scene_measure(). */
+bool gn_scene_add_posed_spreads(struct gn_gltf *g);
 /* closed.c. False also where memory_mb leaves too little memory for the test. */
 bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry);
 /* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
