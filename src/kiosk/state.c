@@ -143,7 +143,6 @@ enum gn_state_found gn_state_read(const struct gn_state_files *files, const char
     *older = first && (!second || other.sequence <= out->sequence);
     if (second && *older == 0) *out = other;
     if (first || second) return GN_STATE_READ;
-    *out = (struct gn_state){0};
     if (gone[0] && gone[1]) return GN_STATE_NONE;
     *err = why[gone[0]];
     return GN_STATE_BROKEN;

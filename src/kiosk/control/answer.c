@@ -113,14 +113,13 @@ static json_t *answer_get(struct gn_show *s, const struct gn_request *r, struct 
 
 /* ---- screenshots ---- */
 
-/* Why the screen shows nothing; NULL: it shows a picture. */
+/* Why the screen shows nothing; NULL: it shows a picture, or soon will. */
 static const char *why_dark(const struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     if (s->kiosk.asleep && !s->kiosk.woken)
         return "the screen is off, outside of the hours of [schedule]";
     if (s->kiosk.blanked) return "the screen is switched off by blank";
-    if (screen->lit && s->stage.gl) return NULL;
-    return screen->status[0] ? screen->status : "no frame was drawn yet";
+    return screen->status[0] && !screen->lit ? screen->status : NULL;
 }
 
 /* A picture that says it, as large as the screen is or was. */
