@@ -101,6 +101,11 @@ quiet 'a restart'
 start --mode C
 says 'mode: C' 'the command line says which'
 stop
+config 'state = state' 'idle = first' 'idle_after = 1'
+start
+says 'mode: A' 'the first mode is that of the configuration'
+ctl mode C > /dev/null
+stop
 
 # the scene of ctl scene
 config 'state = state'

@@ -252,7 +252,8 @@ static void the_first_picture_does_not_wait_for_the_first_scene(void **state) {
 /* Of a state: the second of both scenes that were shown last, since the first is gone. */
 static void a_first_scene_that_fails_late_is_replaced_by_the_last_good_one(void **state) {
     (void)state;
-    struct gn_state last = {.sequence = 1, .scene = "/none.glb"};
+    struct gn_state last = {
+        .sequence = 1, .scene = "/none.glb", .runs = true, .boot = "that of another day"};
     struct gn_err err = {0};
     snprintf(last.past, sizeof last.past, "%s", other);
     assert_true(gn_state_save(&gn_state_disk, in_folder("state"), 0, &last, &err));
@@ -272,6 +273,9 @@ static void a_first_scene_that_fails_late_is_replaced_by_the_last_good_one(void 
     assert_non_null(strstr(show->config.error, "slow.obj: "));
     assert_non_null(strstr(show->config.error, " (showing the last good scene)"));
     assert_string_equal(show->memory.state.scene, "/none.glb"); /* it may come back */
+    assert_int_equal(show->memory.state.counts.starts, 1);
+    assert_int_equal(show->memory.state.counts.cuts, 1);
+    assert_int_equal(show->memory.state.counts.restarts, 0);
     gn_show_close(show);
 }
 
