@@ -167,6 +167,19 @@ static void test_a_made_character_is_where_it_should_be(void **state) {
     compare_clips(character, MOST_EDGE);
 }
 
+static void test_1024_joints_are_where_they_should_be(void **state) {
+    (void)state;
+    struct gn_err err = {0};
+    char path[300];
+    double worst = 0, edges = 0;
+    snprintf(path, sizeof path, "%s/joints.glb", gn_shot_build());
+    if (!gn_many_joints_write(path, &err)) fail_msg("%s", err.text);
+    const int seen = compare_at(path, -1, 0, &worst, &edges);
+    print_message("1024 joints: off by %.2g of its size, %d pixels\n", worst, seen);
+    assert_true(seen > 1000);
+    assert_true(worst < MOST_OFF);
+}
+
 static void test_models_are_where_they_should_be(void **state) {
     (void)state;
     static const char *const models[] = {"gltf/Fox.glb",
@@ -231,6 +244,7 @@ int main(void) {
     struct gn_err err = {0};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_made_character_is_where_it_should_be),
+        cmocka_unit_test(test_1024_joints_are_where_they_should_be),
         cmocka_unit_test(test_models_are_where_they_should_be),
         cmocka_unit_test(test_shadows_are_those_of_the_posed_mesh),
     };

@@ -327,6 +327,87 @@ static void test_joints_outside_of_the_scene_do_not_move(void **state) {
     assert_non_null(strstr(warnings.text[0], "not in the scene"));
 }
 
+/* 100 km off in the mesh's own coordinates, brought back by the bind matrices: shown where it
+ * should be, to the steps of floats there, and that is said once. */
+static void test_a_skinned_mesh_far_off_in_its_own_coordinates(void **state) {
+    (void)state;
+    static const float far[] = {99999, 0, -1, 99999, 0, 1, 100001, 0, 1, 100001, 0, -1};
+    static const float binds[2][16] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -99999, 0, 0, 1},
+                                       {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -100001, 0, 0, 1}};
+    static const uint8_t joints[4][4] = {{0}, {0}, {1}, {1}};
+    char json[200];
+    const int p = gn_maker_accessor(&maker, "VEC3", 5126, 4, far, sizeof far, NULL);
+    const int j = gn_maker_accessor(&maker, "VEC4", 5121, 4, joints, sizeof joints, NULL);
+    const int b = gn_maker_accessor(&maker, "MAT4", 5126, 2, binds, sizeof binds, NULL);
+    snprintf(json, sizeof json,
+             "[{'primitives':[{'indices':1,'attributes':{'POSITION':%d,'JOINTS_0':%d,"
+             "'WEIGHTS_0':3}}]}]",
+             p, j);
+    gn_maker_set(&maker, "meshes", json);
+    snprintf(json, sizeof json, "[{'joints':[1,2],'inverseBindMatrices':%d}]", b);
+    gn_maker_set(&maker, "skins", json);
+    open_scene(GN_POSE_NONE);
+    for (uint32_t v = 0; v < 4; v++) {
+        double at[3];
+        gn_pose_vertex(&pose, 0, scene->geometries[0].first_vertex + v, at);
+        assert_true(fabs(fabs(at[0]) - 1) < .01 && fabs(fabs(at[2]) - 1) < .01);
+    }
+    assert_true(scene->box.max[0] < 1.1f);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.text[0], "lies 1e+05 m off in its own coordinates"));
+}
+
+static void test_copies_of_a_skinned_mesh_are_one(void **state) {
+    (void)state;
+    static const float places[] = {0, 0, 0, 5, 0, 0, 9, 0, 0};
+    char json[200];
+    const int t = gn_maker_accessor(&maker, "VEC3", 5126, 3, places, sizeof places, NULL);
+    snprintf(json, sizeof json, "{'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':%d}}}", t);
+    set_in("nodes", 0, "extensions", json);
+    gn_maker_set(&maker, "extensionsUsed", "['EXT_mesh_gpu_instancing']");
+    open_scene(GN_POSE_NONE);
+    assert_int_equal(scene->item_count, 1);
+    assert_posed(0, 1, 1, 1, 0, 1);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.text[0], "nodes[0]: has a skin"));
+}
+
+/* As many joints as there may be, each of which moves vertices of its own; one more is refused. */
+static void test_1024_joints(void **state) {
+    (void)state;
+    enum { COUNT = 1024 };
+    static float positions[COUNT][3][3], weights[COUNT][3][4];
+    static uint16_t joints[COUNT][3][4];
+    char json[200];
+    json_t *list = json_array(), *roots = json_array();
+    gn_maker_finish(&maker);
+    gn_maker_init(&maker);
+    for (int i = 0; i < COUNT; i++) {
+        snprintf(json, sizeof json, "{'translation':[0,%d,0]}", i);
+        json_array_append_new(list, json_integer(gn_maker_add(&maker, "nodes", json)));
+        json_array_append_new(roots, json_integer(i));
+        for (int c = 0; c < 3; c++) {
+            positions[i][c][0] = (float)(i + (c == 1));
+            positions[i][c][2] = (float)(c == 2);
+            joints[i][c][0] = (uint16_t)i;
+            weights[i][c][0] = 1;
+        }
+    }
+    gn_maker_accessor(&maker, "VEC3", 5126, 3 * COUNT, positions, sizeof positions, NULL);
+    gn_maker_accessor(&maker, "VEC4", 5123, 3 * COUNT, joints, sizeof joints, NULL);
+    gn_maker_accessor(&maker, "VEC4", 5126, 3 * COUNT, weights, sizeof weights, NULL);
+    gn_maker_add(&maker, "meshes",
+                 "{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2}}]}");
+    json_object_set_new(maker.root, "skins", json_pack("[{so}]", "joints", list));
+    json_array_append_new(roots,
+                          json_integer(gn_maker_add(&maker, "nodes", "{'mesh':0,'skin':0}")));
+    json_object_set_new(maker.root, "scenes", json_pack("[{so}]", "nodes", roots));
+    open_scene(GN_POSE_NONE);
+    assert_int_equal(scene->deformation.skins[0].joint_count, COUNT);
+    for (int i = 0; i < COUNT; i += 31) assert_posed(0, (float)i, 1, i, i, 1);
+    assert_posed(0, COUNT - 1, 1, COUNT - 1, COUNT - 1, 1);
+}
+
 #define TEST(name) cmocka_unit_test_setup_teardown(name, start, end)
 int main(void) {
     const struct CMUnitTest tests[] = {
@@ -346,6 +427,9 @@ int main(void) {
         TEST(test_counts_that_do_not_match),
         TEST(test_a_mesh_without_joints_is_shown_without_its_skin),
         TEST(test_joints_outside_of_the_scene_do_not_move),
+        TEST(test_a_skinned_mesh_far_off_in_its_own_coordinates),
+        TEST(test_copies_of_a_skinned_mesh_are_one),
+        TEST(test_1024_joints),
     };
     return RUN(tests);
 }

@@ -22,6 +22,7 @@ struct survey {
     struct bounds *accessor; /* of its positions, mesh space, where `seen` */
     bool *seen;
     struct bounds all; /* world space */
+    bool warned;
 };
 
 static void add_point(struct bounds *bounds, const double p[3]) {
@@ -135,17 +136,36 @@ static double choose_origin(const struct bounds *bounds, int k) {
     return step * round(middle / step);
 }
 
+/* A mesh whose joints bring it back from far off: they would have to know of an origin that was
+ * taken off, so it stays, in steps of floats. */
+static void warn_of_skin(struct survey *s, uint32_t node, const struct bounds *box) {
+    const struct gn_placed *placed = &s->g->placed[node];
+    struct gn_at root = gn_at_root(s->g), meshes = gn_at_any(&root, "meshes");
+    struct gn_at mesh = gn_at_element(&meshes, (size_t)placed->mesh);
+    double away = 0;
+    for (int k = 0; k < 3; k++) away = fmax(away, fabs(middle_of(box, k)));
+    if (s->warned || !(away > FAR * size_of(box)) || !(away < 1e18)) return;
+    s->warned = true;
+    gn_gltf_warn(s->g, &mesh,
+                 "is %.3g m large and lies %.3g m off in its own coordinates, from where its skin "
+                 "brings it back: its vertices are in steps of %.2g m. Apply its transform before "
+                 "it is bound",
+                 size_of(box), away, exp2(floor(log2(away)) - 23));
+}
+
 /* Takes something off the positions of the meshes of a node that its own transform brings back,
- * or moves further off. Those of skins stay: their joints would have to know. */
+ * or moves further off. Those of skins stay. */
 static bool choose_mesh_origins(struct survey *s, uint32_t node, double size) {
     struct gn_gltf *g = s->g;
     const struct gn_mesh *mesh = &g->file.meshes[g->placed[node].mesh];
     for (uint32_t i = 0; i < mesh->primitive_count; i++) {
         const struct gn_shape *shape = shape_of(g, mesh, i);
         const int32_t index = shape->attribute[GN_ATTRIBUTE_POSITION];
-        if (index < 0 || !s->seen[index] || g->file.origins[index] ||
-            shape->attribute[GN_ATTRIBUTE_JOINTS0] >= 0)
+        if (index < 0 || !s->seen[index] || g->file.origins[index]) continue;
+        if (shape->attribute[GN_ATTRIBUTE_JOINTS0] >= 0) {
+            if (g->placed[node].skin >= 0) warn_of_skin(s, node, &s->accessor[index]);
             continue;
+        }
         const struct gn_exact place = place_of(s, node, 0);
         bool far = false;
         for (int r = 0; r < 3; r++) {

@@ -11,6 +11,18 @@ static uint32_t copies_of(const struct gn_placed *placed) {
     return placed->instance_count > 0 ? placed->instance_count : 1;
 }
 
+/* Of a mesh, by its first primitive: its copies would all be where its joints are. */
+static void warn_of_copies(struct gn_gltf *g, const struct gn_placed *placed,
+                           const struct gn_primitive *primitive) {
+    const uint32_t first = g->file.meshes[placed->mesh].first_primitive;
+    struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes");
+    struct gn_at node = gn_at_element(&nodes, placed->json);
+    if (placed->instance_count > 1 && primitive == &g->primitives.list[first])
+        gn_gltf_warn(g, &node,
+                     "has a skin, so the transforms of EXT_mesh_gpu_instancing do not move it; "
+                     "shown once");
+}
+
 static bool add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitive *primitive) {
     struct gn_scene *scene = g->scene;
     const struct gn_placed *placed = &g->placed[node];
@@ -31,7 +43,9 @@ static bool add_items(struct gn_gltf *g, uint32_t node, const struct gn_primitiv
             .cast_faces = placed->cast_faces,
         };
         if (!gn_gltf_deform_item(g, item)) return false;
-        if (item->skin >= 0) break; /* its node's transform is not used, nor those of copies */
+        if (item->skin < 0) continue;
+        warn_of_copies(g, placed, primitive);
+        break; /* its node's transform is not used, nor those of copies */
     }
     return true;
 }
