@@ -40,7 +40,7 @@ static float size_m(const struct gn_pose *pose) {
 
 static void move_light(const struct gn_bench_move *move, struct gn_pose *pose, uint32_t light,
                        float angle_rad) {
-    const struct gn_light *l = &pose->scene->lights[light];
+    const struct gn_light *l = &pose->lights[light];
     vec4 *world_from_node = pose->world_from_node[l->node];
     if (!pose->node_moves[l->node]) glm_mat4_copy(move->nodes[l->node], world_from_node);
     if (gn_light_types[l->type].has_position) {

@@ -104,12 +104,17 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
                                                                 : "");
     }
     if (s->animation.clip_count) fprintf(to, "\nClips\n");
-    for (uint32_t i = 0; i < s->animation.clip_count; i++)
+    for (uint32_t i = 0; i < s->animation.clip_count; i++) {
         print_line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
                    (double)s->animation.clips[i].duration_ns * 1e-9,
                    s->animation.clips[i].channel_count,
                    s->animation.clips[i].channel_count == 1 ? "" : "s",
                    s->animation.clips[i].on_by_default ? "on" : "off");
+        const struct gn_channel *channel =
+            &s->animation.channels[s->animation.clips[i].first_channel];
+        for (uint32_t k = 0; k < s->animation.clips[i].channel_count; k++, channel++)
+            if (channel->path == GN_ANIM_RECORD) print_line(to, "    moves %s", channel->pointer);
+    }
     if (s->variants.count) fprintf(to, "\nVariants of materials\n");
     for (uint32_t i = 0; i < s->variants.count; i++)
         print_line(to, "%-3u %s", i, s->variants.names[i]);

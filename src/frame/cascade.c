@@ -123,6 +123,7 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
     const uint32_t from = frame_opts->view.light_plus_1;
     v.moves = pose->node_moves[from ? scene->lights[from - 1].node
                                     : scene->cameras[frame_opts->view.camera].node];
+    v.moves |= !from && pose->cameras != scene->cameras; /* it zooms, too */
     for (uint32_t i = 0; i < scene->animation.clip_count && v.moves; i++)
         if (scene->animation.clips[i].duration_ns > v.lasts_ns)
             v.lasts_ns = scene->animation.clips[i].duration_ns;

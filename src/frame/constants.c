@@ -140,7 +140,7 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
                               const struct gn_light_group *group, float (*constants)[4]) {
     for (uint32_t i = 0; i < group->count; i++) {
         const struct gn_frame_light *chosen = &frame->lights[group->first + i];
-        const struct gn_light *light = &frame->scene->lights[chosen->light];
+        const struct gn_light *light = &pose->lights[chosen->light];
         float(*c)[4] = constants + PASS_LIGHTS + i * LIGHT_SIZE;
         vec3 place, direction;
         gn_pose_light(pose, chosen->light, place, direction);

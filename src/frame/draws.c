@@ -114,7 +114,7 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_selection *s, uint32_t item, bool *open) {
     const struct gn_item *what = &frame->scene->items[item];
     bool mirrored = pose->items[item].mirrored != s->mirrored;
-    const struct gn_material *m = &frame->scene->materials[what->material];
+    const struct gn_material *m = &pose->materials[what->material];
     const bool in_parts = !s->casts && gn_material_has_opaque_texels(m);
     enum gn_cull cull = m->double_sided ? s->cull : GN_CULL_BACK;
     if (s->casts) cull = s->backs ? GN_CULL_FRONT : caster_cull(frame->scene, pose, item, s->view);

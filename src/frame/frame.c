@@ -184,6 +184,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     plan->programs = frame->programs.at;
     plan->shadows = frame->shadows;
     plan->lights = frame->scene_lights;
+    plan->materials = pose->materials;
     plan->pose_texels = (const float(*)[4])pose->texels;
     plan->pass_count = frame->passes.count;
     plan->draw_count = frame->draws.count;

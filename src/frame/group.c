@@ -10,7 +10,7 @@
 static int rank_of(const struct gn_frame *frame, const struct gn_frame_light *light) {
     const struct gn_light *l = &frame->scene->lights[light->light];
     const struct gn_light_type_row *type = &gn_light_types[l->type];
-    return type->has_cone + (type->has_position && l->range_m > 0.0f);
+    return type->has_cone + (type->has_position && (l->range_m > 0.0f || l->range_moves));
 }
 
 /* 1: for the plane alone. Last of those with maps, so that other items can leave it out. */

@@ -137,7 +137,8 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].slide = (uint8_t)light->slide;
         key->lights[i].slide_ends = light->slide != GN_SLIDE_NONE && light->slide_far_m > 0.0f;
         key->lights[i].ranged = gn_light_types[key->lights[i].type].has_position &&
-                                frame->scene->lights[light->light].range_m > 0.0f;
+                                (frame->scene->lights[light->light].range_m > 0.0f ||
+                                 frame->scene->lights[light->light].range_moves);
         if (i >= key->shadow_count) continue;
         key->lights[i].technique = (uint8_t)light->technique;
         key->lights[i].encoding = (uint8_t)gn_encoding_of_programs(light->encoding);

@@ -51,7 +51,7 @@ static void look_from_afar(const struct gn_box *box, float size_m, struct gn_cam
 
 void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
                            struct gn_camera *camera, mat4 view_from_world, vec3 eye_ws) {
-    const struct gn_light *l = &pose->scene->lights[light];
+    const struct gn_light *l = &pose->lights[light];
     const struct gn_box *all = &pose->scene->box, casters = find_casters(pose);
     const float size_m = fmaxf(glm_vec3_distance((float *)all->min, (float *)all->max), 1e-6f);
     *camera = (struct gn_camera){.name = l->name, .node = l->node};

@@ -216,7 +216,7 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
                                    ? opts->shadow.specular
                                    : frame->scene->lights[i].shadow_specular;
         l.specular = specular >= 0.0f ? specular : 1.0f - l.strength;
-        const float *color = one.given & GN_LIGHT_COLOR ? one.color : frame->scene->lights[i].color;
+        const float *color = one.given & GN_LIGHT_COLOR ? one.color : pose->lights[i].color;
         memcpy(l.color, color, sizeof l.color);
         l.illuminance = illuminance(pose, i, l.color);
         if (casts_shadow(&l)) choose_encoding(frame, opts, &one, &l, warnings);

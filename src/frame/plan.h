@@ -257,7 +257,8 @@ struct gn_plan {
         const struct gn_environment_light *light; /* what ENVIRONMENT programs read, or NULL */
         uint64_t id;                              /* of its content */
     } environment;
-    const float (*pose_texels)[4]; /* of the pose: as many as scene->deformation says */
+    const struct gn_material *materials; /* the scene's, or as clips make them */
+    const float (*pose_texels)[4];       /* of the pose: as many as scene->deformation says */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
     uint32_t culled; /* items that the camera does not see */
     bool is_behind;  /* wants another frame: a filtered map is older than the pose (filter_texels),

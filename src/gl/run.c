@@ -191,6 +191,7 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
         gl->plan_programs.at[i]->used = gl->programs.runs;
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     gn_gl_pose_upload(gl, plan);
+    gn_gl_materials_update(gl, plan);
     bool ok = true;
     if (pass_ms) gn_gl_wait(gl);
     for (uint32_t i = 0; ok && i < plan->pass_count; i++) {
@@ -239,6 +240,7 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
     p->constants_hash = ~UINT64_C(0); /* forces an upload now and at the next frame */
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     gn_gl_pose_upload(gl, plan);
+    gn_gl_materials_update(gl, plan);
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_pass *pass = &plan->passes[i];
         const struct gn_draw *d = &plan->draws[pass->first_draw], *end = d + pass->draw_count;

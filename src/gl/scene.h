@@ -101,6 +101,8 @@ bool gn_gl_deltas_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_deformation_finish(struct gn_gl *gl);
 /* Uploads the plan's texels of the pose if they changed, and binds what vertex shaders read. */
 void gn_gl_pose_upload(struct gn_gl *gl, const struct gn_plan *plan);
+/* The same for the uniforms of materials that clips move. */
+void gn_gl_materials_update(struct gn_gl *gl, const struct gn_plan *plan);
 
 struct gn_gl_instances { /* a ring, so that a frame does not wait for the one before */
     GLuint buffers[GN_GL_INSTANCE_RING];

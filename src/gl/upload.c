@@ -127,6 +127,60 @@ static void forget_programs(struct gn_gl *gl) {
     for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].uv = UINT32_MAX;
 }
 
+/* What uniforms have of a material. */
+static void fill_set(const struct gn_material *m, float (*set)[4]) {
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        const float *uv = m->textures[slot].uv_from_uv;
+        const bool scaled = slot == GN_TEXTURE_NORMAL && m->textures[slot].texture >= 0;
+        const float scale = scaled ? m->normal_scale : 0.0f;
+        const float both[8] = {uv[0], uv[2], uv[4], scale, uv[1], uv[3], uv[5], 0};
+        memcpy(set[2 * slot], both, sizeof both);
+    }
+    float *factors = set[GN_GL_TRANSFORMS];
+    memcpy(factors, m->f0, sizeof(vec3));
+    factors[3] = m->lightmap_intensity;
+    factors[4] = m->coat;
+    factors[5] = m->coat_roughness;
+    factors[6] = m->transmission;
+    factors[7] = 0.0f;
+}
+
+/* Materials with equal transforms, as nearly all have, share one set, so that a program keeps its
+ * uniforms. One that clips move has its own. */
+static void share_sets(struct gn_gl_scene *s) {
+    const struct gn_scene *scene = s->scene;
+    uint32_t last_moving = 0; /* sets before it are not shared */
+    s->uv = gn_xalloc(scene->material_count + 1, sizeof *s->uv);
+    s->material_uv = gn_xalloc(scene->material_count + 1, sizeof *s->material_uv);
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        const bool moves = scene->materials[i].moves;
+        fill_set(&scene->materials[i], s->uv[s->uv_count]);
+        uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
+        if (same < last_moving) same = last_moving;
+        if (moves) same = s->uv_count;
+        while (same < s->uv_count && memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0)
+            same++;
+        s->material_uv[i] = same;
+        s->uv_count += same == s->uv_count;
+        if (moves) last_moving = s->uv_count;
+    }
+}
+
+void gn_gl_materials_update(struct gn_gl *gl, const struct gn_plan *plan) {
+    const struct gn_scene *scene = gl->scene.scene;
+    if (plan->materials == scene->materials) return;
+    for (uint32_t i = 0; i < scene->material_count; i++) {
+        float set[GN_GL_UV_COUNT][4];
+        const uint32_t uv = gl->scene.material_uv[i];
+        if (!scene->materials[i].moves) continue;
+        fill_set(&plan->materials[i], set);
+        if (memcmp(gl->scene.uv[uv], set, sizeof set) == 0) continue;
+        memcpy(gl->scene.uv[uv], set, sizeof set);
+        for (uint32_t k = 0; k < gl->programs.room; k++)
+            if (gl->programs.table[k].uv == uv) gl->programs.table[k].uv = UINT32_MAX;
+    }
+}
+
 void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
     gn_gl_scene_finish(gl);
     gl->scene.scene = scene;
@@ -137,33 +191,7 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
         if (here) gl->scene.attribute_stride += gn_attributes[i].gpu_bytes;
     }
 
-    /* Materials with equal transforms, as nearly all have, share one set, so that a program keeps
-     * its uniforms. */
-    struct gn_gl_scene *s = &gl->scene;
-    s->uv = gn_xalloc(scene->material_count + 1, sizeof *s->uv);
-    s->material_uv = gn_xalloc(scene->material_count + 1, sizeof *s->material_uv);
-    for (uint32_t i = 0; i < scene->material_count; i++) {
-        for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-            const float *m = scene->materials[i].textures[slot].uv_from_uv;
-            const bool scaled =
-                slot == GN_TEXTURE_NORMAL && scene->materials[i].textures[slot].texture >= 0;
-            const float scale = scaled ? scene->materials[i].normal_scale : 0.0f;
-            const float both[8] = {m[0], m[2], m[4], scale, m[1], m[3], m[5], 0};
-            memcpy(s->uv[s->uv_count][2 * slot], both, sizeof both);
-        }
-        float *factors = s->uv[s->uv_count][GN_GL_TRANSFORMS];
-        memcpy(factors, scene->materials[i].f0, sizeof(vec3));
-        factors[3] = scene->materials[i].lightmap_intensity;
-        factors[4] = scene->materials[i].coat;
-        factors[5] = scene->materials[i].coat_roughness;
-        factors[6] = scene->materials[i].transmission;
-        factors[7] = 0.0f;
-        uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
-        while (same < s->uv_count && memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0)
-            same++;
-        s->material_uv[i] = same;
-        s->uv_count += same == s->uv_count;
-    }
+    share_sets(&gl->scene);
     forget_programs(gl);
 }
 

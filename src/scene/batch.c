@@ -9,7 +9,7 @@
 /* The properties of a material that select its program and state, as words to compare. */
 enum {
     SLOT_WORDS = 2 + 6,
-    FLAG_WORDS = 17,
+    FLAG_WORDS = 18,
     LOOK_WORDS = GN_TEXTURE_SLOT_COUNT * SLOT_WORDS + FLAG_WORDS
 };
 struct look {
@@ -58,6 +58,7 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
         memcpy(to + 2, &m->transmission, sizeof m->transmission);
         to[3] = gn_material_is_tinted(m);
         to += 4;
+        *to++ = m->moves ? i + 1 : 0; /* its uniforms are its own */
         assert(to == looks[i].word + LOOK_WORDS);
     }
     qsort(looks, count, sizeof *looks, compare_looks);

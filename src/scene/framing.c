@@ -117,7 +117,7 @@ static void build_for(const struct gn_pose *pose, int clips, uint32_t camera,
     const bool made = is_made(scene, camera), placed = opts->given & GN_FRAMING_PLACE;
     const float aspect = opts->aspect > 0 ? opts->aspect : 1;
     struct gn_camera *c = &framing->camera;
-    *c = scene->cameras[camera];
+    *c = pose->cameras[camera];
     framing->distance_m = 0;
     gn_pose_view(pose, camera, framing->view_from_world, framing->eye_ws);
     if (opts->given & GN_FRAMING_FOV && !c->orthographic) c->yfov_rad = opts->yfov_rad;

@@ -66,6 +66,7 @@ static const struct {
     {gn_gltf_far, 480},
     {gn_gltf_geometries, 480},
     {gn_gltf_items, 700},
+    {gn_gltf_pointers, 710},
     {gn_gltf_materials, 710},
     {gn_gltf_lights, 930},
     {gn_gltf_cameras, 930},

@@ -9,17 +9,24 @@ const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
 #undef GN_X
 };
 
-bool gn_material_is_metal(const struct gn_material *m) { return m->metalness > 0.0f; }
+bool gn_material_is_metal(const struct gn_material *m) {
+    return m->metalness > 0.0f || m->moves & GN_MOVES_METAL;
+}
 
 bool gn_material_has_opaque_texels(const struct gn_material *m) {
     if (gn_material_is_transmissive(m))
         return m->alpha == GN_ALPHA_OPAQUE && m->textures[GN_TEXTURE_TRANSMISSION].texture >= 0;
-    return m->alpha == GN_ALPHA_BLEND && !m->shadow_catcher && m->base_color[3] >= GN_OPAQUE_ALPHA;
+    return m->alpha == GN_ALPHA_BLEND && !m->shadow_catcher &&
+           (m->base_color[3] >= GN_OPAQUE_ALPHA || m->moves & GN_MOVES_BASE);
 }
 
-bool gn_material_is_coated(const struct gn_material *m) { return m->coat > 0.0f; }
+bool gn_material_is_coated(const struct gn_material *m) {
+    return m->coat > 0.0f || m->moves & GN_MOVES_COAT;
+}
 
-bool gn_material_is_transmissive(const struct gn_material *m) { return m->transmission > 0.0f; }
+bool gn_material_is_transmissive(const struct gn_material *m) {
+    return m->transmission > 0.0f || m->moves & GN_MOVES_TRANSMISSION;
+}
 
 bool gn_material_is_blended(const struct gn_material *m) {
     return m->alpha == GN_ALPHA_BLEND || gn_material_is_transmissive(m);
@@ -32,8 +39,8 @@ bool gn_material_is_clear(const struct gn_material *m) {
 
 bool gn_material_is_tinted(const struct gn_material *m) {
     return gn_material_is_transmissive(m) &&
-           (m->textures[GN_TEXTURE_BASE].texture >= 0 || m->base_color[0] != m->base_color[1] ||
-            m->base_color[1] != m->base_color[2]);
+           (m->textures[GN_TEXTURE_BASE].texture >= 0 || m->moves & GN_MOVES_BASE ||
+            m->base_color[0] != m->base_color[1] || m->base_color[1] != m->base_color[2]);
 }
 
 bool gn_material_needs_reflections(const struct gn_material *m) {
@@ -42,18 +49,21 @@ bool gn_material_needs_reflections(const struct gn_material *m) {
 }
 
 bool gn_material_has_f0(const struct gn_material *m) {
-    return m->f0[0] != GN_F0 || m->f0[1] != GN_F0 || m->f0[2] != GN_F0;
+    return m->moves & GN_MOVES_F0 || m->f0[0] != GN_F0 || m->f0[1] != GN_F0 || m->f0[2] != GN_F0;
 }
 
 bool gn_material_is_specular(const struct gn_material *m) {
     if (gn_material_is_metal(m) || gn_material_is_coated(m) || gn_material_is_transmissive(m))
         return true;
+    if (m->moves & GN_MOVES_F0) return true;
     if (m->f0[0] == 0 && m->f0[1] == 0 && m->f0[2] == 0) return false;
-    return m->roughness < 1.0f || m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
+    return m->roughness < 1.0f || m->moves & GN_MOVES_ROUGH ||
+           m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
 }
 
 bool gn_material_is_emissive(const struct gn_material *m) {
-    return m->emissive[0] > 0.0f || m->emissive[1] > 0.0f || m->emissive[2] > 0.0f;
+    return m->moves & GN_MOVES_EMISSIVE || m->emissive[0] > 0.0f || m->emissive[1] > 0.0f ||
+           m->emissive[2] > 0.0f;
 }
 
 bool gn_material_reads(const struct gn_material *m, enum gn_texture_slot slot) {

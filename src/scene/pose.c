@@ -10,6 +10,7 @@
 #include "scene/exact.h"
 #include "scene/fade.h"
 #include "scene/private.h"
+#include "scene/values.h"
 
 struct memory {              /* pose->memory */
     struct gn_node *local;   /* the scene's nodes with the clips applied */
@@ -18,6 +19,7 @@ struct memory {              /* pose->memory */
     struct gn_box still_ws; /* of the visible items that are not animated */
     struct gn_deformer deformer;
     struct gn_fade fade;
+    struct gn_values values;
 };
 
 #define LIMIT GN_POSE_LIMIT
@@ -54,10 +56,12 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
             out->visible &= fabsf(out->box_ws.min[k]) < LIMIT && fabsf(out->box_ws.max[k]) < LIMIT;
     }
     out->visible &= !(item->hidden_in >> (pose->variant + 1) & 1);
+    out->visible &= !(pose->node_hidden && pose->node_hidden[item->node]);
     if (!out->visible) out->box_ws = GN_BOX_EMPTY;
     out->hash = gn_hash(GN_HASH_INIT, out->world_from_item, sizeof out->world_from_item);
     if (gn_item_is_deformed(item))
         out->hash = gn_deform_hash(&((struct memory *)pose->memory)->deformer, item, out->hash);
+    out->hash = gn_values_hash(pose, item, out->hash);
 }
 
 static void pose_node(struct gn_pose *pose, uint32_t i) {
@@ -93,7 +97,9 @@ static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
 /* A node that a clip moves, or whose weights it changes. */
 static void mark_channel(struct gn_pose *pose, const struct gn_channel *channel) {
     struct memory *memory = pose->memory;
-    if (channel->path == GN_ANIM_WEIGHTS)
+    if (channel->path == GN_ANIM_RECORD)
+        gn_values_mark(&memory->values, pose, channel);
+    else if (channel->path == GN_ANIM_WEIGHTS)
         memory->deformer.morph_moves[channel->morph] = true;
     else
         pose->node_moves[channel->node] = true;
@@ -112,6 +118,7 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
     memory->items = gn_xalloc(scene->item_count, sizeof *memory->items);
     gn_deformer_init(&memory->deformer, pose);
     gn_fade_init(&memory->fade, scene);
+    gn_values_init(&memory->values, pose);
     gn_pose_choose(pose, clips);
 }
 
@@ -146,6 +153,7 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
     struct memory *memory = pose->memory;
     const struct gn_scene *scene = pose->scene;
     if (fades) gn_fade_keep(&memory->fade, pose, memory->local, &memory->deformer);
+    if (fades) gn_values_keep(&memory->values, pose);
     pose->fade = fades ? 0 : 1;
     pose->faded_clips = pose->clips;
     pose->clips = clips;
@@ -158,6 +166,7 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
         memset(pose->node_moves, 0, scene->node_count * sizeof *pose->node_moves);
     }
     gn_deformer_reset(&memory->deformer, pose);
+    gn_values_reset(&memory->values, pose, fades);
 
     /* marks and lists the nodes and items that the clips animate */
     for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
@@ -174,17 +183,20 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
         if (pose->node_moves[i]) memory->nodes[memory->node_count++] = i;
     }
     gn_deformer_choose(&memory->deformer, pose);
+    gn_values_choose(&memory->values, pose);
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         pose->items[i].moves = item->skin < 0 && pose->node_moves[item->node];
         if (gn_item_is_deformed(item))
             pose->items[i].moves |= gn_deformer_moves(&memory->deformer, item);
+        pose->items[i].moves |= gn_values_move_item(&memory->values, pose, item);
         if (pose->items[i].moves) memory->items[memory->item_count++] = i;
     }
 
     /* everything is posed once; items that are not animated keep this pose */
     for (uint32_t i = 0; i < scene->node_count; i++) pose_node(pose, i);
     gn_deformer_step(&memory->deformer, pose, false);
+    gn_values_apply(&memory->values, pose);
     for (uint32_t i = 0; i < scene->item_count; i++)
         if (!pose->items[i].moves) pose_item(pose, i);
     measure_still(pose);
@@ -251,6 +263,10 @@ static void step_clip(struct gn_pose *pose, const struct gn_clip *clip, int64_t 
     for (uint32_t i = 0; i < clip->channel_count; i++) {
         const struct gn_channel *channel =
             &pose->scene->animation.channels[clip->first_channel + i];
+        if (channel->path == GN_ANIM_RECORD) {
+            gn_channel_sample(channel, time_s, memory->values.now + channel->record);
+            continue;
+        }
         struct gn_node *node = &memory->local[channel->node];
         float *const target[] = {[GN_ANIM_TRANSLATION] = node->translation,
                                  [GN_ANIM_ROTATION] = node->rotation,
@@ -277,6 +293,7 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
         step_clip(pose, &animation->clips[pose->over],
                   gn_pose_clip_ns(&loop, animation->clips[pose->over].duration_ns, pose->over_ns));
     if (pose->fade < 1) gn_fade_weights(&memory->fade, pose, &memory->deformer);
+    if (memory->values.moves) gn_values_apply(&memory->values, pose);
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     gn_deformer_step(&memory->deformer, pose, true);
     for (uint32_t i = 0; i < memory->item_count; i++) pose_item(pose, memory->items[i]);
@@ -291,6 +308,7 @@ void gn_pose_finish(struct gn_pose *pose) {
         free(memory->items);
         gn_deformer_finish(&memory->deformer);
         gn_fade_finish(&memory->fade);
+        gn_values_finish(&memory->values, pose);
         free(memory);
     }
     free(pose->world_from_node);

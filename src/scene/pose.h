@@ -55,7 +55,13 @@ struct gn_pose {
                      targets: rows of world_from_mesh of each joint, and lists of weights */
     uint32_t *list_counts; /* by deformation.morphs: how many targets have a weight */
     bool *node_moves;      /* scene->node_count: an active channel moves it or one of its parents */
-    void *memory;          /* private */
+    /* Those of the scene, or the pose's own where clips move any: read these for all that is drawn.
+     * A light in a hidden node is black. */
+    const struct gn_light *lights;
+    const struct gn_camera *cameras;
+    const struct gn_material *materials;
+    bool *node_hidden; /* scene->node_count; NULL: none is, at any time */
+    void *memory;      /* private */
 };
 
 /* Makes a pose at time 0. The scene must outlive it. */

@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "scene/gltf/json.h"
 #include "scene/gltf/table.h"
+#include "scene/property.h"
 #include "scene/scene.h"
 
 struct gn_blob { /* bytes of a file, a data URI or a part of the model itself */
@@ -50,7 +51,7 @@ struct gn_accessor {
 #define GN_MISSING(X)                                                                              \
     X(BASISU, "KTX2 pictures", NULL)                                                               \
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
-    X(POINTERS, "animation of other things than nodes", NULL)                                      \
+    X(POINTERS, "animation of some properties", NULL)                                              \
     X(COAT_NORMALS, "normal maps of clear coat", NULL)                                             \
     X(VOLUME, "refraction in volumes", NULL)                                                       \
     X(SHEEN, "sheen", "KHR_materials_sheen")                                                       \
@@ -149,11 +150,14 @@ struct gn_gltf_pictures { /* each is read once, whether it can be or not */
     struct gn_table table;
     struct gn_glossy *glossy; /* by texture of the scene; NULL: none yet */
 };
-struct gn_gltf_to_scene { /* from numbers of the file to indices in the scene */
-    int32_t *node;        /* -1: not shown */
-    int32_t *texture;     /* -1: not looked at yet, -2: dropped */
-    int32_t *image;       /* the same */
-    int32_t *skin;        /* -1: not used yet */
+struct gn_gltf_to_scene {             /* from numbers of the file to indices in the scene */
+    int32_t *node;                    /* -1: not shown */
+    int32_t *texture;                 /* -1: not looked at yet, -2: dropped */
+    int32_t *image;                   /* the same */
+    int32_t *skin;                    /* -1: not used yet */
+    uint32_t *record[GN_THING_COUNT]; /* as in gn_material, by number in the file */
+    uint32_t *moves;                  /* of its materials */
+    bool *range_moves;                /* of its lights */
 };
 enum { GN_ADDED_NODES = 3 }; /* at most: a camera, a light, a floor */
 struct gn_gltf {
@@ -223,6 +227,7 @@ bool gn_gltf_skins(struct gn_gltf *g);      /* gltf/skin.c */
 bool gn_gltf_far(struct gn_gltf *g);        /* gltf/far.c */
 bool gn_gltf_geometries(struct gn_gltf *g); /* geometry.c */
 bool gn_gltf_items(struct gn_gltf *g);      /* gltf/item.c */
+bool gn_gltf_pointers(struct gn_gltf *g);   /* gltf/pointer.c */
 bool gn_gltf_materials(struct gn_gltf *g);  /* gltf/material.c */
 bool gn_gltf_lights(struct gn_gltf *g);     /* gltf/light.c */
 bool gn_gltf_cameras(struct gn_gltf *g);    /* gltf/camera.c */
@@ -358,6 +363,13 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
 void gn_extras_material(struct gn_gltf *g, const struct gn_at *material, int lightmap_set,
                         struct gn_material *m);
 void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene);
+
+/* gltf/pointer.c: the property that a pointer names, if a pose can play it, and the number of the
+ * thing in the file. */
+bool gn_gltf_find_property(struct gn_gltf *g, const char *pointer, struct gn_property *property,
+                           uint32_t *index);
+/* Where the numbers of that thing go, if a clip names it, else NULL; *record: for the thing. */
+void *gn_gltf_record(struct gn_gltf *g, enum gn_thing thing, size_t index, uint32_t *record);
 
 /* gltf/instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
 bool gn_gltf_instances(struct gn_gltf *g);

@@ -48,6 +48,21 @@ struct gn_texture_ref {
 };
 
 #define GN_F0 .04f /* of an index of refraction of 1.5 */
+/* What of a material clips may move. Programs are chosen for all that it may become. */
+enum gn_material_moves {
+    GN_MOVES_BASE = 1,
+    GN_MOVES_METAL = 2,
+    GN_MOVES_ROUGH = 4,
+    GN_MOVES_EMISSIVE = 8,
+    GN_MOVES_CUTOFF = 16,
+    GN_MOVES_NORMAL = 32,
+    GN_MOVES_OCCLUSION = 64,
+    GN_MOVES_F0 = 128,
+    GN_MOVES_COAT = 256,
+    GN_MOVES_TRANSMISSION = 512,
+    GN_MOVES_UV = 1024, /* transforms of its textures */
+    GN_MOVES_CUT = GN_MOVES_BASE | GN_MOVES_CUTOFF | GN_MOVES_TRANSMISSION | GN_MOVES_UV,
+};
 enum gn_alpha { GN_ALPHA_OPAQUE, GN_ALPHA_MASK, GN_ALPHA_BLEND };
 struct gn_material {
     const char *name; /* never NULL */
@@ -63,6 +78,8 @@ struct gn_material {
     bool double_sided, unlit;
     bool shadow_catcher; /* unseen: black, its alpha the share of light that shadows take from it */
     struct gn_texture_ref textures[GN_TEXTURE_SLOT_COUNT];
+    uint32_t moves;  /* enum gn_material_moves */
+    uint32_t record; /* its first float in animation.records, plus 1; 0: no clip names it */
 };
 
 /* Where a part of the pose's texels begins: the pose writes them, vertex shaders fetch them. A
@@ -155,7 +172,9 @@ struct gn_node {
     mat4 matrix;
     vec3 translation, scale;
     versor rotation;
-    vec3 rest; /* what floats lack of the translation, or of that of the matrix */
+    vec3 rest;       /* what floats lack of the translation, or of that of the matrix */
+    bool hidden;     /* with all below it; KHR_node_visibility */
+    uint32_t record; /* of that, as of a material */
 };
 
 /* One per node that has a light, in the order of a depth-first walk of the scene. */
@@ -177,6 +196,8 @@ struct gn_light {
     float slide_distance_m; /* 0: the distance at which its longer side spans the cone */
     float slide_far_m;      /* depth at which its picture ends; 0: nowhere */
     bool slide_lit_outside; /* light outside the slide: yes (film), no (projector) */
+    bool range_moves;       /* by a clip */
+    uint32_t record;        /* as of a material */
 };
 
 struct gn_camera {
@@ -187,17 +208,26 @@ struct gn_camera {
     float aspect;         /* perspective; 0: any. A narrower picture keeps the horizontal angle */
     float xmag_m, ymag_m; /* orthographic half-sizes */
     float near_m, far_m;  /* far 0: infinite */
+    uint32_t record;      /* as of a material */
 };
 
-enum gn_anim_path { GN_ANIM_TRANSLATION, GN_ANIM_ROTATION, GN_ANIM_SCALE, GN_ANIM_WEIGHTS };
+enum gn_anim_path {
+    GN_ANIM_TRANSLATION,
+    GN_ANIM_ROTATION,
+    GN_ANIM_SCALE,
+    GN_ANIM_WEIGHTS,
+    GN_ANIM_RECORD
+};
 enum gn_anim_interpolation { GN_ANIM_LINEAR, GN_ANIM_STEP, GN_ANIM_CUBIC };
 struct gn_channel {
-    uint32_t node;
+    uint32_t node; /* not of RECORD */
     enum gn_anim_path path;
     enum gn_anim_interpolation interpolation;
     uint32_t key_count;
     uint32_t components;  /* 3, 4, or of WEIGHTS as many as the node's mesh has targets */
     int32_t morph;        /* of WEIGHTS: index into deformation.morphs */
+    uint32_t record;      /* of RECORD: its first float in animation.records */
+    const char *pointer;  /* the same: as the file names it */
     const float *times_s; /* ascending, finite, >= 0 */
     const float *values;  /* key_count x components, x 3 for cubic (in-tangents, values,
                              out-tangents) */
@@ -233,6 +263,9 @@ struct gn_scene_animation {
     struct gn_clip *clips;
     struct gn_channel *channels; /* of all clips, clip by clip */
     uint32_t clip_count, channel_count;
+    float *records; /* of what clips move beside nodes, as the file has it (scene/property.h) */
+    uint32_t record_floats;
+    bool has_hidden; /* nodes, or some may be hidden */
 };
 struct gn_scene_deformation { /* skins and targets of meshes */
     struct gn_skin *skins;

@@ -77,7 +77,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                    struct gn_shadow_view *view) {
     assert(opts->technique != GN_TECHNIQUE_NONE);
     const struct gn_technique_row *row = &gn_techniques[opts->technique];
-    const struct gn_light *l = &pose->scene->lights[light];
+    const struct gn_light *l = &pose->lights[light];
 
     /* what does not depend on casters and receivers */
     const enum gn_light_type type = l->type;

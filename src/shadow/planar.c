@@ -380,7 +380,7 @@ bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points) {
 
     /* the window: the part of the plane that is both seen and reached by shadows */
     struct gn_shadow_region window = nothing;
-    const struct gn_shadow_region receivers = receivers_of(&f, &pose->scene->lights[view->light]);
+    const struct gn_shadow_region receivers = receivers_of(&f, &pose->lights[view->light]);
     memset(memory->casts, 0, pose->scene->item_count);
     if (region_is_empty(&receivers)) return false;
     for (uint32_t i = 0; i < pose->scene->item_count; i++) {

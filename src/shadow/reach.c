@@ -11,7 +11,7 @@
 #define PYRAMID_MAX_TAN 3.0f /* for a wider cone the sphere is as good a bound */
 
 void gn_reach_build(struct gn_reach *reach, const struct gn_pose *pose, uint32_t light) {
-    const struct gn_light *l = &pose->scene->lights[light];
+    const struct gn_light *l = &pose->lights[light];
     *reach = (struct gn_reach){.everywhere = !gn_light_types[l->type].has_position,
                                .cone = gn_light_types[l->type].has_cone,
                                .sin_cone = sinf(l->outer_rad),

@@ -7,7 +7,7 @@
 
 bool gn_single_fit(struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
-    const struct gn_light *light = &f->pose->scene->lights[view->light];
+    const struct gn_light *light = &f->pose->lights[view->light];
     struct gn_window found;
     float near_depth, far_depth;
     gn_shadow_look(view, f->tile->light_from_world);

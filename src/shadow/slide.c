@@ -13,7 +13,7 @@ enum gn_slide gn_slide_of(const struct gn_light *light) {
 
 void gn_slide_build(const struct gn_pose *pose, uint32_t light, float aspect,
                     struct gn_slide_view *view) {
-    const struct gn_light *l = &pose->scene->lights[light];
+    const struct gn_light *l = &pose->lights[light];
 
     /* its distance, and its width and height one metre from the light */
     const float *given = l->slide_size_m;

@@ -48,6 +48,14 @@ static void spiral_at(int i, double out[2]) {
     out[1] = sin(angle);
 }
 
+static void copy_materials(struct gn_raycast *rays, const struct gn_pose *pose) {
+    const struct gn_scene *scene = rays->scene;
+    if (pose->materials == scene->materials) return;
+    rays->own = gn_xalloc(scene->material_count, sizeof *rays->own);
+    memcpy(rays->own, pose->materials, scene->material_count * sizeof *rays->own);
+    rays->materials = rays->own;
+}
+
 void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
                      const struct gn_pose *pose) {
     gn_raycast_init_until(rays, scene, pose, NULL);
@@ -79,7 +87,8 @@ void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene
             }
         }
     }
-    *rays = (struct gn_raycast){.scene = scene};
+    *rays = (struct gn_raycast){.scene = scene, .materials = scene->materials};
+    copy_materials(rays, pose);
     gn_bvh_build_until(&rays->bvh, triangles, count, cancel);
     rays->lift_m = 1e-5 * rays->bvh.diagonal;
     rays->spiral = gn_xalloc(SPIRAL_MAX, sizeof *rays->spiral);
@@ -89,6 +98,7 @@ void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene
 void gn_raycast_finish(struct gn_raycast *rays) {
     gn_bvh_finish(&rays->bvh);
     free(rays->spiral);
+    free(rays->own);
     *rays = (struct gn_raycast){0};
 }
 
@@ -134,11 +144,12 @@ static double sample_alpha(const struct gn_scene *scene, const struct gn_texture
                 s * texel_alpha(scene, texture, i + 1, j + 1));
 }
 
-static double alpha_at(const struct gn_scene *scene, const struct gn_bvh_triangle *t,
+static double alpha_at(const struct gn_raycast *rays, const struct gn_bvh_triangle *t,
                        const struct gn_bvh_hit *hit) {
+    const struct gn_scene *scene = rays->scene;
     const struct gn_item *item = &scene->items[t->item];
     const struct gn_geometry *geometry = &scene->geometries[item->geometry];
-    const struct gn_material *material = &scene->materials[item->material];
+    const struct gn_material *material = &rays->materials[item->material];
     const struct gn_texture_ref *ref = &material->textures[GN_TEXTURE_BASE];
     const double weight[3] = {1 - hit->u - hit->v, hit->u, hit->v};
     const uint32_t *corner = &scene->buffers.indices[t->index];
@@ -161,10 +172,11 @@ static double alpha_at(const struct gn_scene *scene, const struct gn_bvh_triangl
                                 m[0] * u + m[2] * v + m[4], m[1] * u + m[3] * v + m[5]);
 }
 
-static bool is_hole(const struct gn_scene *scene, const struct gn_bvh_triangle *t,
+static bool is_hole(const struct gn_raycast *rays, const struct gn_bvh_triangle *t,
                     const struct gn_bvh_hit *hit) {
     return (t->flags & MASKED) &&
-           alpha_at(scene, t, hit) < scene->materials[scene->items[t->item].material].alpha_cutoff;
+           alpha_at(rays, t, hit) <
+               rays->materials[rays->scene->items[t->item].material].alpha_cutoff;
 }
 
 /* --- the eye --- */
@@ -225,7 +237,7 @@ static bool seen_by_eye(const void *context, const struct gn_bvh_triangle *t,
     if (!(t->flags & SEEN)) return false;
     bool front = (hit->facing > 0) != ((t->flags & MIRRORED) != 0);
     if (!front && !(t->flags & SEEN_FROM_BEHIND)) return false;
-    return !is_hole(rays->scene, t, hit);
+    return !is_hole(rays, t, hit);
 }
 
 bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye, int x, int y,
@@ -261,7 +273,7 @@ bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye,
 /* --- lights --- */
 
 void gn_ray_lamp_init(struct gn_ray_lamp *lamp, const struct gn_pose *pose, uint32_t light) {
-    const struct gn_light *l = &pose->scene->lights[light];
+    const struct gn_light *l = &pose->lights[light];
     vec3 position, direction;
     gn_pose_light(pose, light, position, direction);
     *lamp = (struct gn_ray_lamp){.type = l->type,
@@ -295,7 +307,7 @@ static bool out_of_reach(const struct gn_ray_lamp *lamp, const double to[3]) {
 static bool casts(const void *context, const struct gn_bvh_triangle *t,
                   const struct gn_bvh_hit *hit) {
     const struct gn_raycast *rays = context;
-    return (t->flags & CASTS) && !is_hole(rays->scene, t, hit);
+    return (t->flags & CASTS) && !is_hole(rays, t, hit);
 }
 
 static bool casts_itself(const struct gn_raycast *rays, const struct gn_ray_surface *surface) {

@@ -40,7 +40,8 @@ static void small_init(struct small *s) {
                                  .materials = s->materials,
                                  .pictures.images = &s->image,
                                  .pictures.textures = &s->texture};
-    s->pose = (struct gn_pose){.scene = &s->scene, .items = s->posed};
+    s->pose =
+        (struct gn_pose){.scene = &s->scene, .items = s->posed, .materials = s->scene.materials};
 }
 
 /* Starts an item of its own geometry and material; quads are added to the last one. */

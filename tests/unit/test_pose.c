@@ -393,7 +393,7 @@ static void test_other_pointers_are_named_and_not_played(void **state) {
         snprintf(text, sizeof text, "animation of '%s' is not supported", pointers[i]);
         assert_non_null(strstr(warnings.text[i], text));
     }
-    assert_string_equal(scene->missing, "animation of other things than nodes");
+    assert_string_equal(scene->missing, "animation of some properties");
 }
 
 /* ---- variants of materials ---- */

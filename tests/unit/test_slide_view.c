@@ -25,7 +25,7 @@ static void begin(void) {
                               .pictures.textures = &texture,
                               .pictures.texture_count = 1};
     glm_mat4_identity(world);
-    pose = (struct gn_pose){.scene = &scene, .world_from_node = &world};
+    pose = (struct gn_pose){.scene = &scene, .lights = &light, .world_from_node = &world};
 }
 
 static void expect(float x, float y, float z, float u, float v) {

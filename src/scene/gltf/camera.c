@@ -12,7 +12,15 @@ static float needed_float(struct gn_gltf *g, const struct gn_at *up, const char 
     return gn_at_float(g, up, key, 0);
 }
 
-static void add_camera(struct gn_gltf *g, const struct gn_at *at, uint32_t node) {
+/* As a clip changes it. */
+static void fill_record(struct gn_gltf *g, int32_t index, struct gn_camera *camera) {
+    struct gn_camera_record *r = gn_gltf_record(g, GN_THING_CAMERA, (size_t)index, &camera->record);
+    if (!r) return;
+    *r = (struct gn_camera_record){camera->yfov_rad, camera->aspect, camera->xmag_m,
+                                   camera->ymag_m,   camera->near_m, camera->far_m};
+}
+
+static void add_camera(struct gn_gltf *g, const struct gn_at *at, int32_t index, uint32_t node) {
     struct gn_scene *scene = g->scene;
     struct gn_camera camera = {.node = node};
     struct gn_at perspective = gn_at_object(g, at, "perspective");
@@ -47,6 +55,7 @@ static void add_camera(struct gn_gltf *g, const struct gn_at *at, uint32_t node)
         return;
     }
     camera.name = name && *name ? gn_gltf_strdup(g, name) : scene->nodes[node].name;
+    fill_record(g, index, &camera);
     scene->cameras[scene->camera_count++] = camera;
 }
 
@@ -62,7 +71,7 @@ bool gn_gltf_cameras(struct gn_gltf *g) {
         int32_t camera = gn_at_ref(g, &node, "camera", gn_at_size(&definitions), "cameras");
         if (camera < 0) continue;
         struct gn_at definition = gn_at_item(g, &definitions, (size_t)camera);
-        if (!g->failed) add_camera(g, &definition, i);
+        if (!g->failed) add_camera(g, &definition, camera, i);
     }
     return !g->failed;
 }

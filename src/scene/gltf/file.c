@@ -148,6 +148,7 @@ static const char *const SUPPORTED[] = {
     "EXT_texture_webp",
     "KHR_materials_variants",
     "KHR_animation_pointer",
+    "KHR_node_visibility",
 };
 
 static const struct cure {

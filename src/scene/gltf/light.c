@@ -21,6 +21,20 @@ static void read_cone(struct gn_gltf *g, const struct gn_at *at, struct gn_light
     light->inner_rad = light->inner_rad < 0 ? 0 : .99f * light->outer_rad;
 }
 
+/* As a clip changes it. */
+static void fill_record(struct gn_gltf *g, int32_t index, const struct gn_at *at,
+                        struct gn_light *light) {
+    struct gn_light_record *r = gn_gltf_record(g, GN_THING_LIGHT, (size_t)index, &light->record);
+    light->range_moves = g->to_scene.range_moves[index];
+    if (!r) return;
+    glm_vec3_one(r->color);
+    gn_at_floats(g, at, "color", 3, r->color);
+    r->intensity = gn_at_float(g, at, "intensity", 1);
+    r->range_m = light->range_m > 0 ? light->range_m : 1e18f;
+    r->inner_rad = light->inner_rad;
+    r->outer_rad = light->outer_rad;
+}
+
 static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_light *light) {
     const char *type = gn_at_text(g, at, "type");
     struct gn_at type_at = gn_at_any(at, "type"), range_at = gn_at_any(at, "range");
@@ -75,6 +89,7 @@ bool gn_gltf_lights(struct gn_gltf *g) {
         struct gn_at definition = gn_at_item(g, &definitions, (size_t)index);
         struct gn_light light = {.node = i, .name = scene->nodes[i].name};
         if (g->failed || !read_light(g, &definition, &light)) continue;
+        fill_record(g, index, &definition, &light);
         gn_extras_light(g, &definition, &light);
         gn_extras_light(g, &node, &light);
         const char *own = gn_at_text(g, &definition, "name");

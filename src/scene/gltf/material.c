@@ -7,24 +7,22 @@ static float clamp(float x, float least, float most) { return fminf(fmaxf(x, lea
 
 #define GLOSSINESS "extensions.KHR_materials_pbrSpecularGlossiness"
 
-/* The set and the transform of its coordinates, as an affine map; the rotation is clockwise, since
- * v points down. */
+static struct gn_uv_record read_transform(struct gn_gltf *g, const struct gn_at *transform) {
+    struct gn_uv_record record = {.scale = {1, 1}};
+    gn_at_floats(g, transform, "offset", 2, record.offset);
+    gn_at_floats(g, transform, "scale", 2, record.scale);
+    record.rotation_rad = gn_at_float(g, transform, "rotation", 0);
+    return record;
+}
+
+/* The set and the transform of its coordinates, as an affine map. */
 static uint64_t read_uv(struct gn_gltf *g, const struct gn_at *at, float *m, bool *transformed) {
     uint64_t uv_set = gn_at_uint(g, at, "texCoord", 0);
     struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
     *transformed = transform.json != NULL;
     if (!transform.json) return uv_set;
-    float offset[2] = {0, 0}, scale[2] = {1, 1};
-    gn_at_floats(g, &transform, "offset", 2, offset);
-    gn_at_floats(g, &transform, "scale", 2, scale);
-    float angle = gn_at_float(g, &transform, "rotation", 0);
-    float c = cosf(angle), s = sinf(angle);
-    m[0] = c * scale[0];
-    m[1] = -s * scale[0];
-    m[2] = s * scale[1];
-    m[3] = c * scale[1];
-    memcpy(m + 4, offset, sizeof offset);
-    for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
+    const struct gn_uv_record record = read_transform(g, &transform);
+    gn_uv_make(&record, m);
     return gn_at_uint(g, &transform, "texCoord", uv_set);
 }
 
@@ -115,13 +113,10 @@ static void read_f0(struct gn_gltf *g, const struct gn_at *at, bool used, struct
     struct gn_at specular = gn_at_extension(g, at, "extensions.KHR_materials_specular");
     float f0 = GN_F0, color[3] = {1, 1, 1};
     if (gn_at_any(&refracts, "ior").json) {
-        const float ior = clamp(gn_at_float(g, &refracts, "ior", 1.5f), 0, 1e4f);
-        const float r = (ior - 1) / (ior + 1);
-        f0 = fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
+        f0 = gn_f0_of_ior(clamp(gn_at_float(g, &refracts, "ior", 1.5f), 0, 1e4f));
     }
     gn_at_floats(g, &specular, "specularColorFactor", 3, color);
-    const float share = clamp(gn_at_float(g, &specular, "specularFactor", 1), 0, 1);
-    for (int k = 0; k < 3; k++) m->f0[k] = clamp(f0 * clamp(color[k], 0, 1e4f), 0, 1) * share;
+    gn_f0_make(f0, gn_at_float(g, &specular, "specularFactor", 1), color, m->f0);
     if (used && (gn_at_any(&specular, "specularTexture").json ||
                  gn_at_any(&specular, "specularColorTexture").json))
         g->is_missing[GN_MISSING_SPECULAR_TEXTURES] = true;
@@ -162,24 +157,31 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
     for (int k = 0; k < 3; k++) m->base_color[k] *= 1 - most;
 }
 
-/* KHR_materials_clearcoat and _transmission. Of a volume the colour alone, once over its thickness
+/* Of a volume the colour alone, once over its thickness
  * at most: where that comes from a texture, and how long the way of the light is, is unknown. */
+static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3]) {
+    struct gn_at volume = gn_at_extension(g, at, "extensions.KHR_materials_volume");
+    float color[3] = {1, 1, 1};
+    const float thickness = gn_at_float(g, &volume, "thicknessFactor", 0);
+    const float distance = gn_at_float(g, &volume, "attenuationDistance", INFINITY);
+    gn_at_floats(g, &volume, "attenuationColor", 3, color);
+    const float way = thickness > 0 && distance > 0 ? clamp(thickness / distance, 0, 1) : 0;
+    for (int k = 0; k < 3; k++) tint[k] = powf(clamp(color[k], 0, 1), way);
+    return thickness;
+}
+
+/* KHR_materials_clearcoat and _transmission. */
 static void read_coat_and_transmission(struct gn_gltf *g, const struct gn_at *at, bool used,
                                        struct gn_material *m) {
     struct gn_at coat = gn_at_extension(g, at, GN_CLEARCOAT);
     struct gn_at transmits = gn_at_extension(g, at, GN_TRANSMITS);
-    struct gn_at volume = gn_at_extension(g, at, "extensions.KHR_materials_volume");
-    float color[3] = {1, 1, 1};
+    float tint[3];
     m->coat = clamp(gn_at_float(g, &coat, "clearcoatFactor", 0), 0, 1);
     m->coat_roughness = clamp(gn_at_float(g, &coat, "clearcoatRoughnessFactor", 0), 0, 1);
     m->transmission = clamp(gn_at_float(g, &transmits, "transmissionFactor", 0), 0, 1);
-    const float thickness = gn_at_float(g, &volume, "thicknessFactor", 0);
-    const float distance = gn_at_float(g, &volume, "attenuationDistance", INFINITY);
-    gn_at_floats(g, &volume, "attenuationColor", 3, color);
+    const float thickness = read_tint(g, at, tint);
     if (m->unlit) m->coat = m->transmission = 0;
-    const float way = thickness > 0 && distance > 0 ? clamp(thickness / distance, 0, 1) : 0;
-    for (int k = 0; k < 3; k++)
-        m->base_color[k] *= glm_lerp(1, powf(clamp(color[k], 0, 1), way), m->transmission);
+    for (int k = 0; k < 3; k++) m->base_color[k] *= glm_lerp(1, tint[k], m->transmission);
     if (used && m->transmission > 0 && thickness > 0) g->is_missing[GN_MISSING_VOLUME] = true;
     if (used && m->coat > 0 && gn_at_any(&coat, "clearcoatNormalTexture").json)
         g->is_missing[GN_MISSING_COAT_NORMALS] = true;
@@ -196,7 +198,49 @@ static void limit_textures(struct gn_gltf *g, const struct gn_at *at, struct gn_
     }
 }
 
-static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
+/* As a clip changes it. */
+static void fill_record(struct gn_gltf *g, const struct gn_at *at, struct gn_material_record *r) {
+    struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
+    struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
+    struct gn_at refracts = gn_at_extension(g, at, "extensions.KHR_materials_ior");
+    struct gn_at specular = gn_at_extension(g, at, "extensions.KHR_materials_specular");
+    struct gn_at coat = gn_at_extension(g, at, GN_CLEARCOAT);
+    struct gn_at transmits = gn_at_extension(g, at, GN_TRANSMITS);
+    struct gn_at normal = gn_at_object(g, at, "normalTexture");
+    struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
+    *r = (struct gn_material_record){.base_color = {1, 1, 1, 1}, .specular_color = {1, 1, 1}};
+    gn_at_floats(g, &pbr, "baseColorFactor", 4, r->base_color);
+    r->metalness = gn_at_float(g, &pbr, "metallicFactor", 1);
+    r->roughness = gn_at_float(g, &pbr, "roughnessFactor", 1);
+    gn_at_floats(g, at, "emissiveFactor", 3, r->emissive);
+    r->emissive_strength = gn_at_float(g, &strong, "emissiveStrength", 1);
+    r->alpha_cutoff = gn_at_float(g, at, "alphaCutoff", .5f);
+    r->normal_scale = gn_at_float(g, &normal, "scale", 1);
+    r->occlusion_strength = gn_at_float(g, &occlusion, "strength", 1);
+    r->ior = gn_at_float(g, &refracts, "ior", 1.5f);
+    r->specular = gn_at_float(g, &specular, "specularFactor", 1);
+    gn_at_floats(g, &specular, "specularColorFactor", 3, r->specular_color);
+    r->coat = gn_at_float(g, &coat, "clearcoatFactor", 0);
+    r->coat_roughness = gn_at_float(g, &coat, "clearcoatRoughnessFactor", 0);
+    r->transmission = gn_at_float(g, &transmits, "transmissionFactor", 0);
+    read_tint(g, at, r->tint);
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        struct gn_at parent, texture = texture_at(g, at, slot, &parent);
+        struct gn_at transform = gn_at_extension(g, &texture, "extensions.KHR_texture_transform");
+        r->uv[slot] = read_transform(g, &transform);
+    }
+}
+
+/* What a clip may change of a material decides how it is read. */
+static void init_moves(struct gn_gltf *g, const struct gn_at *at, size_t index,
+                       struct gn_material *m) {
+    struct gn_material_record *r = gn_gltf_record(g, GN_THING_MATERIAL, index, &m->record);
+    m->moves = g->to_scene.moves[index];
+    if (m->unlit) m->moves &= ~(uint32_t)(GN_MOVES_COAT | GN_MOVES_TRANSMISSION);
+    if (r) fill_record(g, at, r);
+}
+
+static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t index, bool used,
                           const uint64_t sets[GN_UV_SETS], struct gn_material *m) {
     static const char *const alphas[] = {
         [GN_ALPHA_OPAQUE] = "OPAQUE", [GN_ALPHA_MASK] = "MASK", [GN_ALPHA_BLEND] = "BLEND"};
@@ -204,6 +248,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
     m->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
     m->unlit = gn_at_extension(g, at, "extensions.KHR_materials_unlit").json != NULL;
+    init_moves(g, at, index, m);
     const char *alpha = gn_at_text(g, at, "alphaMode");
     struct gn_at alpha_at = gn_at_any(at, "alphaMode");
     int word = gn_json_word(alpha_at.json, alphas, 3);
@@ -221,8 +266,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, bool used,
     struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
     float strength = gn_at_float(g, &strong, "emissiveStrength", 1);
     gn_at_floats(g, at, "emissiveFactor", 3, m->emissive);
-    for (int k = 0; k < 3; k++)
-        m->emissive[k] = clamp(clamp(m->emissive[k], 0, 1e9f) * clamp(strength, 0, 1e9f), 0, 1e9f);
+    gn_emissive_make(m->emissive, strength, m->emissive);
 
     struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
     m->occlusion_strength = clamp(gn_at_float(g, &occlusion, "strength", 1), 0, 1);
@@ -300,7 +344,7 @@ bool gn_gltf_materials(struct gn_gltf *g) {
         struct gn_at at = gn_at_item(g, &materials, i);
         uint64_t sets[GN_UV_SETS];
         gn_gltf_uv_sets(g, (int32_t)i, sets);
-        if (!g->failed) read_material(g, &at, used[i], sets, &scene->materials[i]);
+        if (!g->failed) read_material(g, &at, i, used[i], sets, &scene->materials[i]);
     }
     gn_material_init(&scene->materials[g->file.material_count]);
     return !g->failed;

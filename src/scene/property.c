@@ -1,0 +1,150 @@
+#include "scene/property.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FLOATS(record, field) (offsetof(struct gn_##record##_record, field) / sizeof(float))
+
+static const struct gn_property properties[] = {
+#define GN_X(THING, path, record, field, components, moves, least, most)                           \
+    {GN_THING_##THING, path, FLOATS(record, field), components, moves, least, most},
+    GN_PROPERTIES(GN_X)
+#undef GN_X
+};
+
+static float clamp(float x, float least, float most) { return fminf(fmaxf(x, least), most); }
+
+/* ---- finding ---- */
+
+/* The rest of the pointer behind a path, whose dots are slashes; NULL: it has another one, or there
+ * is none. */
+static const char *behind(const char *pointer, const char *path) {
+    if (!pointer || *path == '\0') return pointer;
+    if (*pointer++ != '/') return NULL;
+    for (; *path; path++, pointer++)
+        if (*pointer != (*path == '.' ? '/' : *path)) return NULL;
+    return pointer;
+}
+
+static bool find_transform(const char *pointer, struct gn_property *out) {
+    static const struct gn_property parts[] = {
+        {.path = "offset", .first = FLOATS(uv, offset), .components = 2},
+        {.path = "scale", .first = FLOATS(uv, scale), .components = 2},
+        {.path = "rotation", .first = FLOATS(uv, rotation_rad), .components = 1},
+    };
+    for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
+        const char *rest = behind(pointer, row->parent);
+        rest = behind(behind(rest, row->key), "extensions.KHR_texture_transform");
+        for (size_t i = 0; rest && i < sizeof parts / sizeof *parts; i++) {
+            const char *end = behind(rest, parts[i].path);
+            if (!end || *end) continue;
+            *out = parts[i];
+            out->thing = GN_THING_MATERIAL;
+            out->first +=
+                FLOATS(material, uv) + slot * (sizeof(struct gn_uv_record) / sizeof(float));
+            out->moves = GN_MOVES_UV;
+            out->least = -1e6f;
+            out->most = 1e6f;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool gn_property_find(enum gn_thing thing, const char *pointer, struct gn_property *out) {
+    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
+        const char *end = properties[i].thing == thing ? behind(pointer, properties[i].path) : NULL;
+        if (!end || *end) continue;
+        *out = properties[i];
+        return true;
+    }
+    return thing == GN_THING_MATERIAL && find_transform(pointer, out);
+}
+
+uint32_t gn_record_size(enum gn_thing thing) {
+    static const size_t sizes[] = {[GN_THING_LIGHT] = sizeof(struct gn_light_record),
+                                   [GN_THING_CAMERA] = sizeof(struct gn_camera_record),
+                                   [GN_THING_MATERIAL] = sizeof(struct gn_material_record),
+                                   [GN_THING_NODE] = sizeof(struct gn_node_record)};
+    return (uint32_t)(sizes[thing] / sizeof(float));
+}
+
+/* ---- making ---- */
+
+/* A cubic may swing beyond its keys, so all are clamped at each time. */
+void gn_light_make(const struct gn_light_record *r, struct gn_light *light) {
+    for (int k = 0; k < 3; k++)
+        light->color[k] = fminf(fmaxf(r->color[k], 0) * fmaxf(r->intensity, 0), 1e18f);
+    if (light->range_moves) light->range_m = clamp(r->range_m, 1e-6f, 1e18f);
+    if (!gn_light_types[light->type].has_cone) return;
+    light->outer_rad = clamp(r->outer_rad, 1e-3f, GLM_PI_2f);
+    light->inner_rad = fmaxf(r->inner_rad, 0);
+    if (light->inner_rad >= light->outer_rad) light->inner_rad = .99f * light->outer_rad;
+}
+
+void gn_camera_make(const struct gn_camera_record *r, struct gn_camera *camera) {
+    camera->near_m = clamp(r->near_m, camera->orthographic ? 0 : 1e-6f, 1e15f);
+    camera->far_m = 0; /* infinite */
+    if (r->far_m != 0) camera->far_m = fmaxf(r->far_m, camera->near_m * 1.001f + 1e-6f);
+    if (camera->orthographic) {
+        camera->xmag_m = clamp(fabsf(r->xmag_m), 1e-6f, 1e15f);
+        camera->ymag_m = clamp(fabsf(r->ymag_m), 1e-6f, 1e15f);
+    } else {
+        camera->yfov_rad = clamp(r->yfov_rad, 1.1e-3f, 3.14f);
+        if (r->aspect != 0) camera->aspect = clamp(r->aspect, 1e-3f, 1e3f);
+    }
+}
+
+float gn_f0_of_ior(float ior) {
+    const float r = (ior - 1) / (ior + 1);
+    return fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
+}
+
+void gn_f0_make(float f0, float share, const float color[3], vec3 out) {
+    for (int k = 0; k < 3; k++)
+        out[k] = clamp(f0 * clamp(color[k], 0, 1e4f), 0, 1) * clamp(share, 0, 1);
+}
+
+void gn_emissive_make(const float factor[3], float strength, vec3 out) {
+    for (int k = 0; k < 3; k++)
+        out[k] = clamp(clamp(factor[k], 0, 1e9f) * clamp(strength, 0, 1e9f), 0, 1e9f);
+}
+
+/* An affine map; the rotation is clockwise, since v points down. */
+void gn_uv_make(const struct gn_uv_record *r, float m[6]) {
+    const float c = cosf(r->rotation_rad), s = sinf(r->rotation_rad);
+    m[0] = c * r->scale[0];
+    m[1] = -s * r->scale[0];
+    m[2] = s * r->scale[1];
+    m[3] = c * r->scale[1];
+    memcpy(m + 4, r->offset, sizeof r->offset);
+    for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
+}
+
+static void make_base(const struct gn_material_record *r, struct gn_material *m) {
+    for (int k = 0; k < 3; k++)
+        m->base_color[k] =
+            clamp(r->base_color[k] * glm_lerp(1, r->tint[k], m->transmission), 0, 1e4f);
+    m->base_color[3] = clamp(r->base_color[3], 0, 1);
+}
+
+void gn_material_make(const struct gn_material_record *r, struct gn_material *m) {
+    const uint32_t moves = m->moves;
+    if (moves & GN_MOVES_METAL) m->metalness = clamp(r->metalness, 0, 1);
+    if (moves & GN_MOVES_ROUGH) m->roughness = clamp(r->roughness, 0, 1);
+    if (moves & GN_MOVES_EMISSIVE) gn_emissive_make(r->emissive, r->emissive_strength, m->emissive);
+    if (moves & GN_MOVES_CUTOFF) m->alpha_cutoff = clamp(r->alpha_cutoff, 0, 2);
+    if (moves & GN_MOVES_NORMAL) m->normal_scale = clamp(r->normal_scale, -1e4f, 1e4f);
+    if (moves & GN_MOVES_OCCLUSION) m->occlusion_strength = clamp(r->occlusion_strength, 0, 1);
+    if (moves & GN_MOVES_F0)
+        gn_f0_make(gn_f0_of_ior(clamp(r->ior, 0, 1e4f)), r->specular, r->specular_color, m->f0);
+    if (moves & GN_MOVES_COAT) {
+        m->coat = clamp(r->coat, 0, 1);
+        m->coat_roughness = clamp(r->coat_roughness, 0, 1);
+    }
+    if (moves & GN_MOVES_TRANSMISSION) m->transmission = clamp(r->transmission, 0, 1);
+    if (moves & (GN_MOVES_BASE | GN_MOVES_TRANSMISSION)) make_base(r, m);
+    for (int slot = 0; moves & GN_MOVES_UV && slot < GN_TEXTURE_SLOT_COUNT; slot++)
+        gn_uv_make(&r->uv[slot], m->textures[slot].uv_from_uv);
+}
