@@ -159,6 +159,18 @@ static void seed_animated(struct gn_maker *m) {
                  i, input, move, input, cubic, input, turn, i ? "STEP" : "LINEAR");
         gn_maker_add(m, "animations", json);
     }
+    gn_maker_set(m, "extensions", "{'KHR_lights_punctual':{'lights':[{'type':'spot'}]}}");
+    gn_maker_set(m, "materials", "[{'emissiveFactor':[1,0,0]}]");
+    static const char *const pointers[] = {"extensions/KHR_lights_punctual/lights/0/color",
+                                           "materials/0/emissiveFactor",
+                                           "nodes/2/extensions/KHR_node_visibility/visible"};
+    for (int i = 0; i < 3; i++) {
+        snprintf(json, sizeof json,
+                 "{'samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':{'path':"
+                 "'pointer','extensions':{'KHR_animation_pointer':{'pointer':'/%s'}}}}]}",
+                 input, i == 2 ? input : move, pointers[i]);
+        gn_maker_add(m, "animations", json);
+    }
 }
 
 static void seed_sparse(struct gn_maker *m) {

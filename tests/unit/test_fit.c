@@ -127,6 +127,28 @@ static void test_a_kept_memory_fits_as_a_new_one(void **state) {
     end(&s);
 }
 
+/* Clips move lights: a map is drawn again only for what it depends on. */
+static void test_a_map_stays_for_a_colour_and_not_for_a_cone(void **state) {
+    (void)state;
+    struct stage s;
+    begin(&s, "{'type':'spot','spot':{'innerConeAngle':0.1,'outerConeAngle':0.5}}", 1);
+    struct gn_light light = s.scene->lights[0];
+    const uint64_t *hash = &s.view.raster.tiles[0].content_hash;
+    s.pose.lights = &light;
+    assert_true(fit(&s));
+    const uint64_t before = *hash;
+    light.color[1] = 7;
+    light.inner_rad = .2f;
+    assert_true(fit(&s) && *hash == before);
+    light.outer_rad = .6f; /* no caster is there */
+    assert_true(fit(&s) && *hash == before);
+    light.outer_rad = .21f; /* less than the table */
+    assert_true(fit(&s) && *hash != before);
+    light.outer_rad = .5f;
+    assert_true(fit(&s) && *hash == before);
+    end(&s);
+}
+
 static void test_what_is_beyond_the_range_takes_no_part(void **state) {
     (void)state;
     struct stage s;
@@ -310,6 +332,7 @@ int main(void) {
         cmocka_unit_test(test_a_window_holds_all_casters),
         cmocka_unit_test(test_distances_of_large_meshes_are_those_of_their_boxes),
         cmocka_unit_test(test_an_empty_view_has_no_slope_and_two_directions),
+        cmocka_unit_test(test_a_map_stays_for_a_colour_and_not_for_a_cone),
         cmocka_unit_test(test_an_eye_that_is_not_a_number_sees_nothing),
     };
     return RUN(tests);
