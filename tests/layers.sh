@@ -24,6 +24,7 @@ BEGIN {
     foreign["EGL/"] = foreign["GL/osmesa.h"] = foreign["gbm.h"] = foreign["xf86drm"] = "display"
     foreign["drm"] = foreign["libdrm/"] = foreign["GLFW/"] = foreign["wayland"] = "display"
     foreign["gpiod.h"] = foreign["linux/input"] = "input"
+    foreign["linux/cec"] = "display"
     foreign["ft2build.h"] = foreign["freetype/"] = "caption"
     foreign["ini.h"] = "options"
     foreign["jansson.h"] = "core scene bake kiosk cli import"

@@ -1,0 +1,178 @@
+#include "display/television.h"
+
+#include <errno.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "core/arena.h"
+#include "core/clock.h"
+
+enum { UNPLUGGED_S = 5, STARTS_S = 2, GIVEN_UP_S = 60, STARTS_MAX = 10 };
+
+/* Shared with the thread; the last one to leave frees it. */
+struct gn_television {
+    struct gn_cec_opts cec; /* the thread's, with its two texts */
+    char device[256], connector[64];
+    int64_t second_ns;
+    int event;
+    pthread_mutex_t mutex; /* of all that follows */
+    pthread_cond_t changed;
+    bool closed;
+    int users;
+    char wanted_connector[64];
+    struct gn_television_state state;
+    int64_t due_ns; /* of the next attempt; INT64_MAX: none */
+    int tries; /* attempts since something else was wanted, but for those without a television */
+};
+
+int gn_television_pause_s(enum gn_cec_result result, bool on, int tries) {
+    if (result == GN_CEC_TOLD) return -1;
+    if (result == GN_CEC_UNPLUGGED) return UNPLUGGED_S;
+    if (result == GN_CEC_STARTS) return tries < STARTS_MAX ? STARTS_S : -1;
+    if (tries < GN_TELEVISION_TRIES) return 1 << (tries > 0 ? tries - 1 : 0);
+    return on || result == GN_CEC_NO_ADAPTER ? GIVEN_UP_S : -1;
+}
+
+static void take_report(struct gn_television *t, bool on, const struct gn_cec_report *r) {
+    struct gn_television_state *s = &t->state;
+    const bool is_told = r->result == GN_CEC_TOLD || r->result == GN_CEC_STARTS;
+    const enum gn_television_wish did = on ? GN_TELEVISION_ON : GN_TELEVISION_STANDBY;
+    s->attempts++;
+    s->told = is_told ? did : GN_TELEVISION_ANY;
+    snprintf(s->device, sizeof s->device, "%s", r->adapter.path);
+    if (is_told) s->problem[0] = '\0';
+    if (s->wanted != did) return; /* meanwhile; that is due at once */
+    snprintf(s->waits, sizeof s->waits, "%s", is_told ? "" : r->why);
+    if (r->result == GN_CEC_UNPLUGGED) {
+        t->tries = 0;
+        s->problem[0] = '\0';
+    } else if (++t->tries >= GN_TELEVISION_TRIES && !is_told)
+        memcpy(s->problem, s->waits, sizeof s->problem);
+    const int pause_s = gn_television_pause_s(r->result, on, t->tries);
+    t->due_ns = pause_s < 0 ? INT64_MAX : gn_clock_monotonic_ns() + pause_s * t->second_ns;
+}
+
+static void attempt(struct gn_television *t) {
+    static const uint64_t one = 1;
+    const bool on = t->state.wanted == GN_TELEVISION_ON;
+    struct gn_cec_report report;
+    t->due_ns = INT64_MAX;
+    t->state.told = GN_TELEVISION_ANY; /* a message may have come through, whatever becomes of it */
+    memcpy(t->connector, t->wanted_connector, sizeof t->connector);
+    pthread_mutex_unlock(&t->mutex);
+    gn_cec_tell(&t->cec, on, &report);
+    pthread_mutex_lock(&t->mutex);
+    take_report(t, on, &report);
+    if (!t->closed && write(t->event, &one, sizeof one) < 0) {
+    }
+}
+
+/* With the mutex locked, which it unlocks. */
+static void leave(struct gn_television *t) {
+    const bool is_last = --t->users == 0;
+    pthread_mutex_unlock(&t->mutex);
+    if (!is_last) return;
+    pthread_cond_destroy(&t->changed);
+    pthread_mutex_destroy(&t->mutex);
+    free(t);
+}
+
+static void *run_thread(void *argument) {
+    struct gn_television *t = argument;
+    setpriority(PRIO_PROCESS, 0, 10); /* on Linux of the thread alone */
+    pthread_mutex_lock(&t->mutex);
+    while (!t->closed) {
+        const struct timespec due = {t->due_ns / GN_NS_PER_S, t->due_ns % GN_NS_PER_S};
+        if (t->due_ns <= gn_clock_monotonic_ns())
+            attempt(t);
+        else if (t->due_ns == INT64_MAX)
+            pthread_cond_wait(&t->changed, &t->mutex);
+        else
+            pthread_cond_timedwait(&t->changed, &t->mutex, &due);
+    }
+    leave(t);
+    return NULL;
+}
+
+static int start_thread(struct gn_television *t) {
+    pthread_t thread;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
+    const int error = pthread_create(&thread, &attributes, run_thread, t);
+    pthread_attr_destroy(&attributes);
+    return error;
+}
+
+static void init_locks(struct gn_television *t) {
+    pthread_condattr_t attributes;
+    pthread_condattr_init(&attributes);
+    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+    pthread_cond_init(&t->changed, &attributes);
+    pthread_condattr_destroy(&attributes);
+    pthread_mutex_init(&t->mutex, NULL);
+}
+
+struct gn_television *gn_television_open(const struct gn_television_opts *opts,
+                                         struct gn_err *err) {
+    struct gn_television *t = gn_xalloc(1, sizeof *t);
+    t->cec = opts->cec;
+    t->cec.connector = t->connector;
+    if (opts->cec.device) {
+        snprintf(t->device, sizeof t->device, "%s", opts->cec.device);
+        t->cec.device = t->device;
+    }
+    t->second_ns = opts->second_ns > 0 ? opts->second_ns : GN_NS_PER_S;
+    t->due_ns = INT64_MAX;
+    t->users = 2;
+    init_locks(t);
+    t->event = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    const int error = t->event < 0 ? errno : start_thread(t);
+    if (error == 0) return t;
+    gn_fail(err, "cannot tell the television anything: %s", strerror(error));
+    if (t->event >= 0) close(t->event);
+    pthread_mutex_lock(&t->mutex);
+    t->users = 1;
+    leave(t);
+    return NULL;
+}
+
+void gn_television_set(struct gn_television *t, bool on, const char *connector) {
+    const enum gn_television_wish wish = on ? GN_TELEVISION_ON : GN_TELEVISION_STANDBY;
+    pthread_mutex_lock(&t->mutex);
+    if (connector && connector[0])
+        snprintf(t->wanted_connector, sizeof t->wanted_connector, "%s", connector);
+    if (t->state.wanted != wish) {
+        t->state.wanted = wish;
+        t->state.waits[0] = '\0';
+        t->tries = 0;
+        t->due_ns = t->state.told == wish ? INT64_MAX : 0; /* back before the thread saw it */
+        pthread_cond_signal(&t->changed);
+    }
+    pthread_mutex_unlock(&t->mutex);
+}
+
+int gn_television_fd(const struct gn_television *t) { return t->event; }
+
+void gn_television_read(struct gn_television *t, struct gn_television_state *state) {
+    uint64_t count;
+    if (read(t->event, &count, sizeof count) < 0) {
+    }
+    pthread_mutex_lock(&t->mutex);
+    *state = t->state;
+    pthread_mutex_unlock(&t->mutex);
+}
+
+void gn_television_close(struct gn_television *t) {
+    if (!t) return;
+    pthread_mutex_lock(&t->mutex);
+    t->closed = true;
+    close(t->event);
+    pthread_cond_signal(&t->changed);
+    leave(t);
+}
