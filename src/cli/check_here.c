@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/doctor_report.h"
+#include "display/cec.h"
 #include "input/line_find.h"
 
 struct here {
@@ -125,6 +126,25 @@ static void check_connector(struct here *h, const struct gn_settings *s) {
     }
 }
 
+/* The adapter that would tell the television; one without a television may get one. */
+static void check_television(struct here *h, const struct gn_settings *s) {
+    const struct gn_cec_opts opts = {.device = s->schedule.cec_device,
+                                     .connector = s->display.connector};
+    struct gn_cec_report found;
+    struct gn_err err = {0};
+    if (!(s->schedule.off & GN_OFF_CEC)) return;
+    gn_cec_find(&opts, &found);
+    const unsigned at = found.adapter.address;
+    if (found.result == GN_CEC_NO_ADAPTER) {
+        gn_fail(&err, "%s: %s", gn_settings_label(s, schedule.off), found.why);
+        add_error(h, &err);
+    } else if (found.result != GN_CEC_TOLD)
+        gn_warn(h->warnings, "%s: a kiosk waits for one", found.why);
+    else
+        printf("television at %s (%s), %u.%u.%u.%u\n", found.adapter.path, found.adapter.name,
+               at >> 12, at >> 8 & 15, at >> 4 & 15, at & 15);
+}
+
 static void check_devices(struct here *h) {
     const struct gn_problem_list *problems = &h->report->problems;
     struct gn_err err = {0};
@@ -168,6 +188,7 @@ void gn_cli_check_here(const struct gn_options *options, struct gn_errors *error
     }
     const char *backend = options->settings->display.backend;
     check_buttons(&h);
+    check_television(&h, options->settings);
     if (strcmp(backend, "auto") == 0 || strcmp(backend, "kms") == 0) {
         check_devices(&h);
         check_connector(&h, options->settings);

@@ -67,7 +67,7 @@ void gn_show_take_rules(struct gn_show *s) {
     s->rules.idle_after_ns = o->kiosk.idle_after_ns;
     s->rules.plays_alone = o->kiosk.plays_alone;
     s->rules.wake_ns = o->schedule.wake_ns;
-    s->rules.sleeps_black = o->schedule.off_is_black;
+    s->rules.sleeps_black = o->schedule.off & GN_OFF_BLACK;
     s->rules.fade_ns = o->kiosk.fade_ns;
     s->rules.caption_ns = o->kiosk.captions ? o->kiosk.caption_ns : 0;
     s->rules.names_first = s->config.options->is_lesson;

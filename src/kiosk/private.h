@@ -7,6 +7,7 @@
 
 #include "caption/captions.h"
 #include "core/loop.h"
+#include "display/television.h"
 #include "kiosk/content.h"
 #include "kiosk/control/answer.h"
 #include "kiosk/info_page.h"
@@ -113,6 +114,7 @@ enum gn_problem {
     GN_PROBLEM_WATCH,   /* changes of files are not noticed */
     GN_PROBLEM_SHADERS, /* of --shaders; until they can be used */
     GN_PROBLEM_STATE,   /* until it is saved */
+    GN_PROBLEM_TELEVISION, /* until it answers */
     GN_PROBLEM_COUNT,
 };
 struct gn_show_problems {
@@ -170,6 +172,12 @@ struct gn_show_first {
     const char *instead;    /* what is shown */
     int tries;              /* of memory.good */
 };
+struct gn_show_television {     /* of [schedule] off = cec */
+    struct gn_television *told; /* NULL: none */
+    char device[256];           /* of the settings that it was opened with; "": to be found */
+    struct gn_watch watch;
+    struct gn_television_state state;
+};
 struct gn_show_counts {
     int64_t begun_ns; /* the program, about */
     uint64_t presses; /* of buttons and keys that did something */
@@ -207,6 +215,7 @@ struct gn_show {
     struct gn_show_hours hours;
     struct gn_show_memory memory;
     struct gn_show_first first;
+    struct gn_show_television television;
     struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
@@ -366,6 +375,12 @@ void gn_show_follow_content(struct gn_show *show, bool missed);
 
 /* hours.c: the screen is off by the clock; called again after a reload. */
 void gn_show_open_hours(struct gn_show *show);
+
+/* television.c: a television that goes into standby with the screen; open is called again after a
+ * reload, step in each step of the kiosk. */
+void gn_show_open_television(struct gn_show *show);
+void gn_show_step_television(struct gn_show *show);
+void gn_show_close_television(struct gn_show *show);
 
 /* truth.c stands here; see truth.h. */
 

@@ -63,6 +63,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     s->kiosk.woken = before.woken;
     s->kiosk.used_ns = before.used_ns;
     gn_show_open_hours(s);
+    gn_show_open_television(s);
     if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
     fflush(stdout);

@@ -69,6 +69,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
     const bool off = s->kiosk.blanked || (gn_kiosk_is_dark(&s->kiosk) && !s->rules.sleeps_black);
     if (off != screen->blank) gn_display_blank(&s->stage.display, off, tick.time_ns);
+    gn_show_step_television(s);
     s->changed |= gn_service_step(&s->service, screen, gn_loop_now_ns(s->loop));
     if (!gn_show_keep_context(s, err)) return false;
     gn_show_renew_shaders(s);
@@ -128,6 +129,7 @@ void gn_show_close(struct gn_show *s) {
     gn_content_close(&s->content);
     gn_service_close(&s->service);
     gn_loop_remove_timer(&s->hours.timer);
+    gn_show_close_television(s);
     gn_loop_remove_signals(&s->signals);
     gn_loop_close(s->loop);
     gn_changes_destroy(s->config.changes);
@@ -171,6 +173,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     }
     gn_show_open_hours(s);
     gn_show_open_memory(s);
+    gn_show_open_television(s);
     gn_show_stats_open(&s->stats, s->stage.settings, &s->stage.display, s->loop);
     gn_show_open_control(s);
     return true;
@@ -181,6 +184,7 @@ static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *w
     *s = (struct gn_show){.config.place = place,
                           .service.socket = -1,
                           .shaders.watch.fd = -1,
+                          .television.watch.fd = -1,
                           .content.watch.fd = -1,
                           .warnings = warnings};
     return s;

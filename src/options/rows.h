@@ -185,7 +185,9 @@ GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS
 GN_OPTION(.name = "hours", .key = "on", .section = "schedule", .kind = GN_KIND_HOURS, .value = "HOURS", .fallback = "always",
           .help = "hours of local time in which the screen is on, as mon-fri 08:00-20:00, sat 10:00-18:00; always on while the clock is not set", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.on))
 GN_OPTION(.name = "hours-off", .key = "off", .section = "schedule", .kind = GN_KIND_CHOICE, .choices = offs, .value = "HOW", .fallback = "dpms",
-          .help = "outside of them switch the display off, or show black, for displays that do not come back", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.off_is_black))
+          .help = "outside of them switch the display off, or show black, for displays that do not come back; cec and cec-black also put a television into standby and bring it back, by CEC", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.off))
+GN_OPTION(.name = "cec-device", .section = "schedule", .kind = GN_KIND_PATH, .value = "PATH",
+          .help = "the CEC adapter, as /dev/cec1; without it the one of the connector in use, else the first that has a television", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.cec_device))
 GN_OPTION(.name = "hours-wake", .key = "wake", .section = "schedule", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds", .fallback = "300",
           .help = "a button that is pressed outside of them switches the screen on, until so long after the last press", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.wake_ns))
 GN_OPTION(.name = "hours-dim", .key = "dim", .section = "schedule", .kind = GN_KIND_HOURS, .value = "HOURS", .fallback = "never",

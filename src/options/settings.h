@@ -157,10 +157,13 @@ struct gn_kiosk_settings {
     bool captions;
     int64_t caption_ns;
 };
+enum { GN_OFF_BLACK = 1, GN_OFF_CEC = 2 }; /* bits: black, not switched off; the television, too */
 struct gn_schedule_settings {
     struct gn_schedule on, dim;
     double dim_to;
-    int off_is_black, clock_trusted; /* 0, 1 */
+    int off;                /* of GN_OFF_.. */
+    const char *cec_device; /* NULL: the adapter is found */
+    int clock_trusted;      /* 0, 1 */
     int64_t wake_ns;
 };
 struct gn_run_settings { /* of this run of the program: flags only */

@@ -81,7 +81,11 @@ static const struct gn_choice slide_aspects[] = {{"square", 0}, {"picture", 1}, 
 static const struct gn_choice light_colors[] = {{"auto", -1}, {0}};
 static const struct gn_choice follows[] = {{"world", 0}, {"camera", 1}, {0}};
 static const struct gn_choice playings[] = {{"act", 0}, {"ignore", 1}, {0}};
-static const struct gn_choice offs[] = {{"dpms", 0}, {"black", 1}, {0}};
+static const struct gn_choice offs[] = {{"dpms", 0},
+                                        {"black", GN_OFF_BLACK},
+                                        {"cec", GN_OFF_CEC},
+                                        {"cec-black", GN_OFF_CEC | GN_OFF_BLACK},
+                                        {0}};
 static const struct gn_choice clocks[] = {{"checked", 0}, {"trusted", 1}, {0}};
 static const struct gn_choice idles[] = {
     {"none", GN_IDLE_NONE}, {"first", GN_IDLE_FIRST}, {"next", GN_IDLE_NEXT}, {0}};

@@ -1,0 +1,212 @@
+/* A kiosk whose screen goes dark and comes back, and what its television is told of it: once each
+ * time. The kiosk's clock is fake, so that nights pass; the television's thread has its own. */
+#include "unit/check.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "core/clock.h"
+#include "kiosk/private.h"
+#include "options/args.h"
+#include "unit/cec_fake.h"
+#include "unit/gl_help.h"
+
+#define SECONDS(n) ((n)*GN_NS_PER_S)
+
+static int64_t clock_ns;
+
+static struct gn_show *open_show(const char *config) {
+    static struct gn_warnings warnings;
+    struct gn_options options;
+    struct gn_err err = {0};
+    struct gn_display display;
+    const char *folder = help_folder();
+    char path[200];
+    const char *argv[] = {"gnomon", "show", "--backend", "egl",           "--size",
+                          "64x64",  "-c",   path,        "--no-animation"};
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    help_write(folder, "kiosk.ini", config);
+    snprintf(path, sizeof path, "%s/kiosk.ini", folder);
+    if (!gn_args_parse(&options, sizeof argv / sizeof *argv, (char *const *)(uintptr_t)argv,
+                       &warnings, &err))
+        fail_msg("%s", err.text);
+    struct gn_show *show = gn_show_open(&options, &warnings, &err);
+    gn_options_finish(&options);
+    help_remove(folder);
+    if (!show) fail_msg("%s", err.text);
+    if (show->config.options->config_error) fail_msg("%s", show->config.options->config_error);
+    clock_ns = gn_clock_monotonic_ns();
+    gn_loop_fake_clock(show->loop, &clock_ns);
+    return show;
+}
+
+/* The adapter that was configured is replaced by the fake. */
+static void take_fake(struct gn_show *show, struct cec_fake *fake) {
+    struct gn_show_television *t = &show->television;
+    struct gn_err err = {0};
+    assert_non_null(t->told);
+    struct gn_watch watch = {.events = EPOLLIN, .call = t->watch.call, .user = show};
+    const struct gn_television_opts opts = {
+        .cec = {.ops = &cec_fake_ops, .context = fake, .drm = "/nonexistent"},
+        .second_ns = GN_NS_PER_S / 500};
+    char device[sizeof t->device];
+    memcpy(device, t->device, sizeof device);
+    gn_show_close_television(show);
+    t->told = gn_television_open(&opts, &err);
+    if (!t->told) fail_msg("%s", err.text);
+    memcpy(t->device, device, sizeof device);
+    t->watch = watch;
+    t->watch.fd = gn_television_fd(t->told);
+    assert_true(gn_loop_add(show->loop, &t->watch));
+}
+
+static void step(struct gn_show *show) {
+    struct gn_err err = {0};
+    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+}
+
+static void run_until(struct gn_show *show, int64_t until_ns) {
+    struct gn_timer end = {.due_ns = until_ns};
+    gn_loop_add_timer(show->loop, &end);
+    for (int steps = 0; clock_ns < until_ns; steps++) {
+        step(show);
+        assert_true(steps < 100000); /* or time stands still */
+    }
+    gn_loop_remove_timer(&end);
+}
+
+/* Until the thread has told it, and a little longer. */
+static void is_told(struct cec_fake *fake, int times_on, int times_standby) {
+    for (int i = 0; i < 60000; i++, usleep(1000))
+        if (cec_fake_count(fake, "40:04") >= times_on &&
+            cec_fake_count(fake, "40:36") >= times_standby)
+            break;
+    usleep(20000);
+    assert_int_equal(cec_fake_count(fake, "40:04"), times_on);
+    assert_int_equal(cec_fake_count(fake, "40:36"), times_standby);
+}
+
+static void act(struct gn_show *show, enum gn_action_kind kind, enum gn_turn turn, bool pressed) {
+    gn_show_act(show, &(struct gn_action){.kind = kind, .turn = turn, .pressed = pressed},
+                clock_ns);
+    step(show);
+}
+
+static void set_hours(struct gn_show *show, bool ended) {
+    const struct gn_kiosk_event event = {.kind = GN_KIOSK_HOURS, .time_ns = clock_ns, .by = ended};
+    show->hours.timer.due_ns = GN_LOOP_NEVER; /* the real ones are others */
+    show->kiosk = gn_kiosk_step(&show->rules, &show->kiosk, &event);
+    step(show);
+}
+
+static void each_night_is_one_standby_and_each_press_one_waking(void **state) {
+    (void)state;
+    struct gn_show *show =
+        open_show("[schedule]\noff = cec\ncec_device = /dev/null\nwake = 60\nclock = trusted\n"
+                  "[mode \"a\"]\nshadow = none\n");
+    struct cec_fake *fake = cec_fake_new();
+    take_fake(show, fake);
+    step(show);
+    is_told(fake, 1, 0); /* at the start */
+    set_hours(show, true);
+    is_told(fake, 1, 1);
+    assert_true(show->stage.display.screen.blank); /* its picture is off as well */
+    run_until(show, clock_ns + SECONDS(8 * 3600));
+    for (int i = 0; i < 1000; i++) set_hours(show, true); /* as each look at the clock finds */
+    is_told(fake, 1, 1);
+    act(show, GN_ACTION_NEXT, GN_TURN_OTHER, true);
+    is_told(fake, 2, 1);
+    run_until(show, clock_ns + SECONDS(61)); /* awake for a minute */
+    is_told(fake, 2, 2);
+    act(show, GN_ACTION_BLANK, GN_TURN_OFF, false);
+    is_told(fake, 3, 2);
+    act(show, GN_ACTION_BLANK, GN_TURN_ON, false);
+    is_told(fake, 3, 3);
+    set_hours(show, false);
+    is_told(fake, 4, 3);
+    assert_false(show->stage.display.screen.blank);
+    gn_show_close(show);
+}
+
+static void a_reload_tells_nothing_again(void **state) {
+    (void)state;
+    struct gn_show *show = open_show("[schedule]\noff = cec-black\ncec_device = /dev/null\n"
+                                     "[mode \"a\"]\nshadow = none\n");
+    struct cec_fake *fake = cec_fake_new();
+    take_fake(show, fake);
+    assert_true(show->rules.sleeps_black);
+    set_hours(show, true);
+    is_told(fake, 0, 1);
+    assert_false(show->stage.display.screen.blank); /* black */
+    gn_show_open_television(show);                  /* what a reload does */
+    step(show);
+    is_told(fake, 0, 1);
+    gn_show_close(show);
+}
+
+/* Steps until the status has the problem, or none. */
+static void problem_becomes(struct gn_show *show, bool is_there) {
+    for (int i = 0; i < 60000; i++, usleep(1000)) {
+        step(show);
+        if ((strstr(show->text.problem, "/dev/") != NULL) == is_there) return;
+    }
+    fail_msg("the problem is \"%s\"", show->text.problem);
+}
+
+static void its_problem_is_named_until_it_is_cured(void **state) {
+    (void)state;
+    struct gn_show *show = open_show("[schedule]\noff = cec\ncec_device = /dev/null\n"
+                                     "[mode \"a\"]\nshadow = none\n");
+    struct cec_fake *fake = cec_fake_new();
+    fake->nacks = -1;
+    take_fake(show, fake);
+    problem_becomes(show, true);
+    assert_non_null(strstr(show->text.problem, "the television at /dev/cec0 does not answer"));
+    cec_fake_lock();
+    fake->nacks = 0;
+    cec_fake_unlock();
+    problem_becomes(show, false);
+    assert_string_equal(show->text.problem, "");
+    assert_int_equal(show->television.state.told, GN_TELEVISION_ON);
+
+    /* one of something else is not taken away */
+    cec_fake_lock();
+    fake->nacks = -1;
+    cec_fake_unlock();
+    act(show, GN_ACTION_BLANK, GN_TURN_ON, false);
+    problem_becomes(show, true);
+    gn_show_report_problem(show, "something else");
+    cec_fake_lock();
+    fake->nacks = 0;
+    cec_fake_unlock();
+    act(show, GN_ACTION_BLANK, GN_TURN_OFF, false);
+    for (int i = 0; i < 60000 && show->television.state.told != GN_TELEVISION_ON; i++) {
+        step(show);
+        usleep(1000);
+    }
+    assert_string_equal(show->text.problem, "something else");
+    gn_show_close(show);
+}
+
+static void other_ways_of_off_tell_nothing(void **state) {
+    (void)state;
+    struct gn_show *show = open_show("[schedule]\noff = dpms\ncec_device = /dev/null\n"
+                                     "[mode \"a\"]\nshadow = none\n");
+    step(show);
+    assert_null(show->television.told);
+    gn_show_close(show);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_night_is_one_standby_and_each_press_one_waking),
+        cmocka_unit_test(a_reload_tells_nothing_again),
+        cmocka_unit_test(its_problem_is_named_until_it_is_cured),
+        cmocka_unit_test(other_ways_of_off_tell_nothing),
+    };
+    return RUN(tests);
+}
