@@ -149,7 +149,7 @@ gpu_device() {
 gpu() { # bind or unbind
     gpu_device > "/sys/bus/pci/drivers/virtio-pci/$1" || fail "gpu $1"
 }
-load() { # vkms, gpio or keys: modules that are not loaded at the start
+load() { # vkms, gpio, keys or cec: modules that are not loaded at the start
     local module
     while read -r module; do
         /run/busybox insmod "/run/modules/$module" 2> /dev/null
