@@ -145,9 +145,12 @@ struct gn_television *gn_television_open(const struct gn_television_opts *opts,
 void gn_television_set(struct gn_television *t, bool on, const char *connector) {
     const enum gn_television_wish wish = on ? GN_TELEVISION_ON : GN_TELEVISION_STANDBY;
     pthread_mutex_lock(&t->mutex);
-    if (connector && connector[0])
+    const bool moves = connector && connector[0] && strcmp(t->wanted_connector, connector) != 0;
+    if (moves) {
         snprintf(t->wanted_connector, sizeof t->wanted_connector, "%s", connector);
-    if (t->state.wanted != wish) {
+        t->state.told = GN_TELEVISION_ANY; /* by another adapter, perhaps */
+    }
+    if (t->state.wanted != wish || moves) {
         t->state.wanted = wish;
         t->state.waits[0] = '\0';
         t->tries = 0;

@@ -28,8 +28,8 @@ struct gn_television_state {
 
 struct gn_television;
 struct gn_television *gn_television_open(const struct gn_television_opts *opts, struct gn_err *err);
-/* Takes no time. The connector that shows the picture, "HDMI-A-1", is copied; NULL or "": as
- * before. */
+/* Takes no time. The connector that shows the picture, "HDMI-A-1", is copied; at another one there
+ * may be another television, which has to be told; NULL or "": as before. */
 void gn_television_set(struct gn_television *television, bool on, const char *connector);
 int gn_television_fd(const struct gn_television *television); /* readable after each attempt */
 void gn_television_read(struct gn_television *television, struct gn_television_state *state);

@@ -176,7 +176,9 @@ struct gn_show_television {     /* of [schedule] off = cec */
     struct gn_television *told; /* NULL: none */
     char device[256];           /* of the settings that it was opened with; "": to be found */
     struct gn_watch watch;
-    struct gn_television_state state;
+    struct gn_television_state state; /* after the last attempt */
+    bool is_set, on;                  /* what it was told last */
+    char connector[64];
 };
 struct gn_show_counts {
     int64_t begun_ns; /* the program, about */

@@ -58,7 +58,13 @@ static bool find_connector(const struct gn_show *s, char *out, size_t size) {
 }
 
 void gn_show_step_television(struct gn_show *s) {
-    char connector[64];
-    if (!s->television.told || !find_connector(s, connector, sizeof connector)) return;
-    gn_television_set(s->television.told, !gn_kiosk_is_dark(&s->kiosk), connector);
+    struct gn_show_television *t = &s->television;
+    const bool on = !gn_kiosk_is_dark(&s->kiosk);
+    char connector[sizeof t->connector];
+    if (!t->told || !find_connector(s, connector, sizeof connector)) return;
+    if (t->is_set && t->on == on && strcmp(t->connector, connector) == 0) return;
+    gn_television_set(t->told, on, connector);
+    t->is_set = true;
+    t->on = on;
+    memcpy(t->connector, connector, sizeof connector);
 }

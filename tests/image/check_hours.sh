@@ -66,6 +66,15 @@ says 'schedule.on: no'
 grep -q '^screen.lit: yes' status || complain 'black is switched off'
 stop
 
+start 'clock = trusted' 'off = cec' 'cec_device = /dev/null'
+says 'television.wanted: standby'
+says 'television.waits: /dev/null is not a CEC adapter'
+ctl blank off > /dev/null
+says 'television.wanted: on'
+stop
+timeout 60 "$gnomon" show --check kiosk.ini --here > out 2> err && complain 'a file is taken for a CEC adapter'
+grep -q 'kiosk.ini:6: off: /dev/null is not a CEC adapter' err || complain "$(cat err)"
+
 # darker: a white scene is as one of .3 of its light, and white again after those hours
 colour() {
     cat > "$1.gltf" << END

@@ -220,6 +220,23 @@ static void one_that_starts_hears_again_what_to_show(void **state) {
     close_television(t, fake);
 }
 
+static void at_another_connector_there_is_another_one(void **state) {
+    (void)state;
+    struct cec_fake *fake = cec_fake_new();
+    struct gn_television *t = open_television(fake);
+    struct gn_television_state s;
+    gn_television_set(t, true, "HDMI-A-1");
+    WAIT(t, &s, s.told == GN_TELEVISION_ON);
+    gn_television_set(t, true, ""); /* unplugged */
+    gn_television_set(t, true, "HDMI-A-1");
+    usleep(20000);
+    assert_int_equal(cec_fake_count(fake, "40:04"), 1);
+    gn_television_set(t, true, "HDMI-A-2");
+    WAIT(t, &s, s.attempts == 2 && s.told == GN_TELEVISION_ON);
+    assert_int_equal(cec_fake_count(fake, "40:04"), 2);
+    close_television(t, fake);
+}
+
 static void it_closes_at_once_in_the_middle_of_an_attempt(void **state) {
     (void)state;
     struct cec_fake *fake = cec_fake_new();
@@ -247,6 +264,7 @@ int main(void) {
         cmocka_unit_test(an_unplugged_one_is_waited_for_without_a_problem),
         cmocka_unit_test(an_adapter_that_comes_late_is_found),
         cmocka_unit_test(one_that_starts_hears_again_what_to_show),
+        cmocka_unit_test(at_another_connector_there_is_another_one),
         cmocka_unit_test(it_closes_at_once_in_the_middle_of_an_attempt),
     };
     return RUN(tests);

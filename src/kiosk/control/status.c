@@ -65,10 +65,14 @@ static json_t *state_json(const struct gn_show_memory *memory) {
     return state;
 }
 
-static json_t *television_json(const struct gn_television_state *t) {
+static json_t *television_json(const struct gn_show_television *tv) {
     static const char *const wishes[] = {"", "on", "standby"};
-    return json_pack("{s:s, s:s, s:o, s:o, s:I}", "wanted", wishes[t->wanted], "told",
-                     wishes[t->told], "device", gn_json_make_text(t->device), "waits",
+    const struct gn_television_state *t = &tv->state;
+    return json_pack("{s:s, s:s, s:o, s:o, s:I}", "wanted",
+                     !tv->is_set ? ""
+                     : tv->on    ? "on"
+                                 : "standby",
+                     "told", wishes[t->told], "device", gn_json_make_text(t->device), "waits",
                      gn_json_make_text(t->waits[0] ? t->waits : NULL), "attempts",
                      (json_int_t)t->attempts);
 }
@@ -143,7 +147,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
                                       (json_int_t)(next_s == INT64_MAX ? 0 : next_s)));
     }
     if (s->television.told)
-        json_object_set_new(reply, "television", television_json(&s->television.state));
+        json_object_set_new(reply, "television", television_json(&s->television));
     json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
     json_object_set_new(reply, "control",
                         json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted",
