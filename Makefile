@@ -111,7 +111,7 @@ PKG_CONFIG_LIBDIR ?= $(SYSROOT)/usr/lib/$(CROSS)/pkgconfig:$(SYSROOT)/usr/share/
 PKG     := PKG_CONFIG_LIBDIR=$(PKG_CONFIG_LIBDIR) $(if $(SYSROOT),PKG_CONFIG_SYSROOT_DIR=$(SYSROOT)) pkg-config
 endif
 PKG     ?= pkg-config
-PKGS    := jansson libpng libturbojpeg inih
+PKGS    := jansson libpng libturbojpeg inih zlib
 HEADERS := egl glesv2 cglm libdrm gbm
 NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests sanitized syntax $(CHECKS) truth benchmark benchmark-scenes gallery contact-sheet book readme,$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
@@ -120,6 +120,8 @@ $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CR
 PKGS    += $(shell $(PKG) --exists freetype2 2> /dev/null && echo freetype2)
 # pictures of textures in WebP
 PKGS    += $(shell $(PKG) --exists libwebp 2> /dev/null && echo libwebp)
+# those in KTX2 that zstd has compressed
+PKGS    += $(shell $(PKG) --exists libzstd 2> /dev/null && echo libzstd)
 # gnomon-import is a program of its own, for those who have assimp or, by C++, draco
 has      = $(shell $(PKG) --exists $(1) 2> /dev/null && echo y)
 CXX     := $(if $(filter default undefined,$(origin CXX)),$(if $(CROSS),$(CROSS)-)$(if $(findstring clang,$(CC)),clang++,g++),$(CXX)) \
@@ -162,6 +164,7 @@ COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 # x.c needs the package x and x_none.c stands in for it: the list of such pairs
 OPTIONAL := src/display/osmesa:osmesa src/display/window/window:glfw3 src/caption/font_file:freetype2 \
             src/image/webp_read:libwebp src/image/webp_write:libwebp \
+            src/image/zstd:libzstd \
             src/core/syscall_filter:libseccomp
 without  = $(foreach p,$(OPTIONAL),$(if $(shell $(PKG) --exists $(lastword $(subst :, ,$(p))) \
              2> /dev/null && echo y),$(firstword $(subst :, ,$(p)))_none.c,\

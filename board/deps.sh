@@ -4,14 +4,14 @@
 # here), deb and deb-test (packages, and what examines them) are for this machine; cross is what building for CROSS=aarch64-linux-gnu adds.
 set -eu
 
-libraries='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
+libraries='libc6-dev libjansson-dev libpng-dev zlib1g-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
     libcglm-dev libdrm-dev libgbm-dev'
 build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
 test_libraries='libcmocka-dev libx11-dev'
 test="clang clang-format clang-tidy groff-base xvfb $test_libraries"
 # for gnomon-import and its sandbox, a window, texts on the picture, textures, meshes
-optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libmeshoptimizer-dev libdraco-dev'
+optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libzstd-dev libmeshoptimizer-dev libdraco-dev'
 optional_compiler=g++ # with libdraco, of gnomon-import
 optional_run='fonts-dejavu-core' # for those texts
 optional_test='libosmesa6-dev' # not in every Debian

@@ -30,7 +30,7 @@ BEGIN {
     foreign["jansson.h"] = "core scene bake kiosk cli import"
     foreign["png.h"] = "image import"
     foreign["turbojpeg.h"] = "image import"
-    foreign["webp/"] = "image"
+    foreign["webp/"] = foreign["zstd.h"] = foreign["zlib.h"] = "image"
     foreign["meshoptimizer.h"] = "scene bake"
     foreign["assimp/"] = foreign["draco/"] = "import"
     foreign["cmocka.h"] = "none"

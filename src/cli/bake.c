@@ -1,6 +1,8 @@
 /* gnomon bake: a scene as one small .glb, and what that saves. */
 #include "bake/bake.h"
 
+#include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -22,6 +24,7 @@ struct bake {
     struct gn_bytes source, baked;
     struct gn_bake_report report;
     struct measures before, after;
+    int texture_limit_px;
 };
 
 /* ---- measuring ---- */
@@ -71,7 +74,7 @@ static void print_table(const struct bake *b) {
     print_row("load", x->load_ms, y->load_ms, 1, " ms");
     if (r->scaled_images)
         printf("%zu of %zu pictures scaled down to %d pixels\n", r->scaled_images, r->images,
-               b->settings->run.texture_limit_px);
+               b->texture_limit_px);
     if (b->settings->run.simplify < 1)
         printf("simplified: surfaces moved by at most %.2g %% of the size of their mesh\n",
                100 * r->error);
@@ -126,13 +129,18 @@ static bool read_source(struct bake *b, const char *path, struct gn_warnings *wa
 
 static bool bake(struct bake *b, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_settings *s = b->settings;
+    const double texture_px = s->scene.texture_limit_px;
+    b->texture_limit_px = isnan(texture_px)   ? GN_BAKE_TEXTURE_PX
+                          : isinf(texture_px) ? INT_MAX
+                                              : (int)texture_px;
     const struct gn_bake_opts opts = {.path = s->scene.path,
                                       .limits = &b->limits,
                                       .share = s->run.simplify,
-                                      .texture_limit_px = s->run.texture_limit_px};
+                                      .texture_limit_px = b->texture_limit_px};
     struct gn_warnings again = {0};
     if (!gn_stage_limits(s, &b->limits, err)) return false;
     b->limits.floor.kind = GN_FLOOR_NONE;
+    b->limits.texture_px = 0;
     if (!read_source(b, s->scene.path, warnings, err) ||
         !measure_bytes(b, s->scene.path, &b->source, &b->before, warnings, err) ||
         !gn_bake(&opts, b->source.data, b->source.size, &b->baked, &b->report, warnings, err))

@@ -15,7 +15,7 @@ static uint32_t count_large_images(const struct gn_scene *scene, double *before,
     for (uint32_t i = 0; i < scene->pictures.image_count; i++) {
         const struct gn_image *image = &scene->pictures.images[i];
         const uint32_t px = image->width_px > image->height_px ? image->width_px : image->height_px;
-        if (px <= GN_BAKE_TEXTURE_PX) continue;
+        if (px <= GN_BAKE_TEXTURE_PX || image->levels) continue; /* KTX2 stays as it is */
         const double scale = (double)GN_BAKE_TEXTURE_PX / px;
         const double bytes = (double)gn_scene_image_bytes(image);
         *before += bytes;

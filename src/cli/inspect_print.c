@@ -59,16 +59,22 @@ __attribute__((format(printf, 2, 3))) static void print_line(FILE *to, const cha
     fprintf(to, "  %s\n", text);
 }
 
+static void print_image(FILE *to, uint32_t i, const struct gn_image *image) {
+    char packed[48] = "";
+    if (image->levels)
+        snprintf(packed, sizeof packed, ", %s, %u level%s", gn_packing_names[image->packing],
+                 image->level_count, image->level_count == 1 ? "" : "s");
+    print_line(to, "%-3u %ux%u%s%s, %.2f MB", i, image->width_px, image->height_px,
+               image->has_alpha ? " with alpha" : "", packed, GN_MB(gn_scene_image_bytes(image)));
+}
+
 static void print_lists(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene *s = in->scene;
     if (s->pictures.image_count)
         fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
                 s->pictures.image_count);
     for (uint32_t i = 0; i < s->pictures.image_count; i++)
-        print_line(to, "%-3u %ux%u%s, %.2f MB", i, s->pictures.images[i].width_px,
-                   s->pictures.images[i].height_px,
-                   s->pictures.images[i].has_alpha ? " with alpha" : "",
-                   GN_MB(gn_scene_image_bytes(&s->pictures.images[i])));
+        print_image(to, i, &s->pictures.images[i]);
     fprintf(to, "\nLights\n");
     for (uint32_t i = 0; i < s->light_count; i++) {
         const struct gn_light *light = &s->lights[i];
@@ -251,11 +257,13 @@ static void add_lists(json_t *all, const struct gn_inspection *in) {
     json_t *clips = json_array(), *variants = json_array();
     for (uint32_t i = 0; i < s->pictures.image_count; i++) {
         const struct gn_image *image = &s->pictures.images[i];
-        json_array_append_new(
-            images,
-            json_pack("{so so sb so}", "width_px", gn_json_make_count(image->width_px), "height_px",
-                      gn_json_make_count(image->height_px), "alpha", image->has_alpha, "bytes",
-                      gn_json_make_count(gn_scene_image_bytes(&s->pictures.images[i]))));
+        json_array_append_new(images, json_pack("{so so sb so ss so}", "width_px",
+                                                gn_json_make_count(image->width_px), "height_px",
+                                                gn_json_make_count(image->height_px), "alpha",
+                                                image->has_alpha, "bytes",
+                                                gn_json_make_count(gn_scene_image_bytes(image)),
+                                                "format", gn_packing_names[image->packing],
+                                                "levels", gn_json_make_count(image->level_count)));
     }
     for (uint32_t i = 0; i < s->light_count; i++) json_array_append_new(lights, light_json(in, i));
     for (uint32_t i = 0; i < s->camera_count; i++) {

@@ -106,6 +106,8 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     copy_string(gl, GL_VERSION, caps->version, sizeof caps->version);
     caps->software = is_software(caps->renderer);
     caps->tiler = gn_gl_is_tiler(caps->renderer);
+    caps->etc2 = strncmp(caps->version, "OpenGL ES ", 10) == 0 ||
+                 has_extension(gl, "GL_ARB_ES3_compatibility");
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_SIZE, &caps->max_texture_px);
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_IMAGE_UNITS, &caps->max_texture_units);
     GLint timer_bits = 0;

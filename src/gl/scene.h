@@ -31,7 +31,8 @@ struct gn_gl_picture { /* being uploaded, a few rows at a time */
     bool open, srgb, mipmaps;
     GLint level;
     GLsizei levels;
-    uint32_t row; /* of the level: uploaded so far */
+    uint32_t row;        /* of the level, of texels or blocks: uploaded so far */
+    const uint8_t *next; /* of KTX2: the level that is uploaded as it is */
     struct gn_image half;
     uint8_t *half_owned; /* the next level, in progress */
 };
@@ -95,6 +96,12 @@ bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_textures_finish(struct gn_gl *gl);
 void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref);
 void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture);
+
+/* levels.c: for a picture with levels from its file, the texture of the open picture; false: it
+ * cannot be had, and the picture has become a white texel, with a warning. */
+bool gn_gl_levels_open(struct gn_gl *gl, uint32_t index);
+/* Uploads some rows; returns their bytes. Closes the picture behind its last level. */
+size_t gn_gl_levels_send(struct gn_gl *gl, size_t bytes);
 
 /* deform.c: makes the textures, and uploads the deltas of one geometry; true: of all. */
 bool gn_gl_deltas_step(struct gn_gl *gl, size_t bytes);

@@ -34,6 +34,7 @@
     X(PFNGLCLEARCOLORPROC, ClearColor)                                                             \
     X(PFNGLCOLORMASKPROC, ColorMask)                                                               \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                                       \
+    X(PFNGLCOMPRESSEDTEXSUBIMAGE2DPROC, CompressedTexSubImage2D)                                   \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                                       \
     X(PFNGLCREATESHADERPROC, CreateShader)                                                         \
     X(PFNGLCULLFACEPROC, CullFace)                                                                 \

@@ -120,6 +120,12 @@ static bool open_next_picture(struct gn_gl *gl) {
     struct gn_gl_picture *p = &s->upload.picture;
     *p = (struct gn_gl_picture){.image = pictures->images[index], .srgb = srgb, .open = true};
 
+    if (p->image.levels) {
+        s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
+        gn_gl_work_on_texture(gl, s->images[srgb][index]);
+        if (gn_gl_levels_open(gl, index)) return true;
+    }
+
     /* halved until it fits the GPU */
     const struct gn_image *whole = &pictures->images[index];
     const uint32_t largest = (uint32_t)gl->caps.max_texture_px;
@@ -142,7 +148,7 @@ static bool open_next_picture(struct gn_gl *gl) {
     const uint32_t width = p->image.width_px, height = p->image.height_px;
     p->levels = 1;
     while (p->mipmaps && (width > height ? width : height) >> p->levels > 0) p->levels++;
-    s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    if (!s->images[srgb][index]) s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
     gn_gl_work_on_texture(gl, s->images[srgb][index]);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)width, (GLsizei)height);
@@ -170,7 +176,8 @@ bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes) {
         if (p->level == 0 && p->row == 0) sent += PICTURE_BYTES;
         use_of(s->scene, s->upload.first, &texture, &srgb);
         gn_gl_work_on_texture(gl, s->images[srgb][s->scene->pictures.textures[texture].image]);
-        sent += send_rows(gl, sent < bytes ? bytes - sent : 1);
+        const size_t left = sent < bytes ? bytes - sent : 1;
+        sent += p->image.levels ? gn_gl_levels_send(gl, left) : send_rows(gl, left);
     }
     if (p->open || sent >= bytes) return false;
     for (uint32_t i = 0; i < s->scene->pictures.texture_count; i++)

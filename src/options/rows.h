@@ -26,6 +26,8 @@ GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e
           .help = "start at this time of the animation", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.time_ns))
 GN_OPTION(.name = "floor", .section = "scene", .kind = GN_KIND_LEVEL, .min = -1e6, .max = 1e6, .value = "auto|none|HEIGHT", .unit = "metres", .fallback = "auto",
           .help = "an unseen floor that catches the shadows: under a model that stands on nothing (auto), or at a height", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.floor_m))
+GN_OPTION(.name = "texture-limit", .section = "scene", .kind = GN_KIND_LEVEL, .min = 16, .max = 16384, .value = "auto|none|PX", .unit = "pixels", .fallback = "auto",
+          .help = "make textures that are wider or higher than this smaller, by halves when a scene is loaded; auto: 2048 for bake, else as large as the GPU can have them", .commands = DRAW | BIT(INSPECT) | BIT(BAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.texture_limit_px))
 GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
           .unit = "degrees per second", .fallback = "0",
           .help = "turn the camera around the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
@@ -211,8 +213,6 @@ GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
           .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.out))
 GN_OPTION(.name = "simplify", .kind = GN_KIND_NUMBER, .min = 0.001, .max = 1, .value = "RATIO", .fallback = "1",
           .help = "keep this share of each mesh's triangles, or more where it would move by over 1/50 of its size", .commands = BIT(BAKE), .offset = FIELD(run.simplify))
-GN_OPTION(.name = "texture-limit", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels", .fallback = "2048",
-          .help = "scale textures down to this width and height at most; smaller ones stay as they are", .commands = BIT(BAKE), .offset = FIELD(run.texture_limit_px))
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
           .help = "draw this text on the picture, as the kiosk does with an error", .commands = BIT(RENDER), .offset = FIELD(run.caption))
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",

@@ -87,7 +87,8 @@ struct gn_scene_settings {
     bool animation_restart;
     int64_t time_ns;
     double turntable_deg_s;
-    double floor_m; /* y of the shadow catcher; NAN: automatic, INFINITY: none */
+    double floor_m;          /* y of the shadow catcher; NAN: automatic, INFINITY: none */
+    double texture_limit_px; /* NAN: automatic, INFINITY: none */
 };
 enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
@@ -182,7 +183,6 @@ struct gn_run_settings { /* of this run of the program: flags only */
     double reach;                  /* of score: of a filter, texels */
     bool make_truth;               /* of score */
     double simplify;               /* of bake: share of the triangles */
-    int texture_limit_px;          /* of bake */
     bool csv, move_lights, move_casters; /* of bench */
     bool plan, json, self_test, stats, verbose, version, help;
 };

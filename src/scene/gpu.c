@@ -13,8 +13,12 @@ static void mark_use(struct gn_scene *scene, int32_t texture, bool color) {
 
 uint64_t gn_scene_image_bytes(const struct gn_image *image) {
     const uint64_t texels = (uint64_t)image->width_px * image->height_px;
-    return (uint64_t)(image->as_data + image->as_color) *
-           (texels * 4 * (image->mipmaps ? 4 : 3) / 3);
+    uint64_t bytes = texels * 4 * (image->mipmaps ? 4 : 3) / 3;
+    if (image->levels)
+        bytes =
+            gn_packing_all_bytes(image->packing, (uint32_t[]){image->width_px, image->height_px},
+                                 image->mipmaps ? image->level_count : 1);
+    return (uint64_t)(image->as_data + image->as_color) * bytes;
 }
 
 uint64_t gn_scene_index_bytes(const struct gn_scene *scene) {

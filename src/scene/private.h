@@ -6,6 +6,8 @@
 #include "core/arena.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "image/ktx2.h"
+#include "image/scale.h"
 #include "scene/gltf/json.h"
 #include "scene/gltf/table.h"
 #include "scene/property.h"
@@ -49,7 +51,7 @@ struct gn_accessor {
 /* X(NAME, words, extension of materials or NULL): what is not supported yet; the scene is shown
  * without, and missing.c lists it. */
 #define GN_MISSING(X)                                                                              \
-    X(BASISU, "KTX2 pictures", NULL)                                                               \
+    X(BASISU, "Basis pictures", NULL)                                                              \
     X(DRACO, "Draco-compressed meshes", NULL)                                                      \
     X(POINTERS, "animation of some properties", NULL)                                              \
     X(COAT_NORMALS, "normal maps of clear coat", NULL)                                             \
@@ -217,6 +219,7 @@ void gn_gltf_progress(const struct gn_gltf *g, unsigned permille);
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf/file.c */
 bool gn_gltf_check_support(struct gn_gltf *g);
 bool gn_gltf_uses(const struct gn_gltf *g, const char *extension);
+bool gn_gltf_requires(const struct gn_gltf *g, const char *extension);
 bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf/buffers.c */
 bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf/accessor.c */
 bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf/node.c */
@@ -348,8 +351,22 @@ int32_t gn_gltf_tangents(struct gn_gltf *g, int32_t material);
 struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents);
 
 /* gltf/image.c: the scene's texture for one of the file, created at its first use; -1: none, or
- * dropped with a warning. */
-int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture);
+ * dropped with a warning. kind: of its picture, where that is made smaller. */
+int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture, enum gn_scale_kind kind);
+/* What a picture takes: pixels and bytes that stay, those of decoding it, those on the GPU. */
+struct gn_picture_need {
+    uint32_t px[2];
+    uint64_t kept, decoding, on_gpu;
+};
+/* Fails where that is over a limit. */
+bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
+                          struct gn_err *err);
+/* Counts a picture that was decoded. */
+void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need);
+
+/* gltf/levels.c: the levels of a KTX2 file that texture_px allows. */
+bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct gn_ktx2 *ktx2,
+                    struct gn_image *image, struct gn_err *err);
 
 /* gltf/glossiness.c: replaces a texture of the scene by one of roughness, 1 - factor x its alpha;
  * mean: of its colours, linear. False if it was made with another factor before, or failed. */

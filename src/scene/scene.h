@@ -12,6 +12,7 @@
 
 #include "core/err.h"
 #include "core/warn.h"
+#include "image/packing.h"
 #include "scene/attribute.h"
 #include "scene/light.h"
 #include "scene/material.h"
@@ -23,7 +24,12 @@ struct gn_box { /* axis-aligned; empty when min > max */
 /* Pixels of a decoded picture. Row 0 is the top row, which glTF puts at v = 0. */
 struct gn_image {
     uint32_t width_px, height_px;
-    const uint8_t *rgba;    /* width x height x 4, sRGB-encoded or linear as its use requires */
+    const uint8_t *rgba; /* width x height x 4, sRGB-encoded or linear as its use requires; NULL:
+                            it is compressed into blocks */
+    const uint8_t
+        *levels; /* of KTX2, for the GPU as they are, the largest first; NULL: rgba alone */
+    enum gn_packing packing; /* of them */
+    uint32_t level_count;
     bool has_alpha;         /* some texel is not opaque */
     bool as_data, as_color; /* materials and lights read it so: a texture of each format */
     bool mipmaps;           /* of these */
@@ -382,6 +388,7 @@ struct gn_scene_limits {
     const atomic_bool *cancel;    /* another thread sets it to end the load, which fails; or NULL */
     atomic_uint *progress;        /* gets how much of the load is done, per mille; or NULL */
     struct gn_scene_floor floor;  /* no limit: what is added to the file */
+    uint32_t texture_px;          /* pictures of longer sides become smaller; 0: none does */
 };
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,

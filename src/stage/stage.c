@@ -55,6 +55,8 @@ bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits 
                                                          : isinf(floor_m) ? GN_FLOOR_NONE
                                                                           : GN_FLOOR_HEIGHT,
                                                  .height_m = isfinite(floor_m) ? floor_m : 0.0}};
+    const double texture_px = settings->scene.texture_limit_px;
+    limits->texture_px = isfinite(texture_px) ? (uint32_t)texture_px : 0;
     for (int i = 0; i < settings->render.limits.count; i++)
         if (!gn_scene_limits_set(limits, settings->render.limits.items[i].name,
                                  (uint64_t)settings->render.limits.items[i].value, err))

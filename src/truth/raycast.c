@@ -126,7 +126,10 @@ static double texel_alpha(const struct gn_scene *scene, const struct gn_texture 
     const struct gn_image *image = &scene->pictures.images[texture->image];
     size_t column = wrap(x, image->width_px, texture->wrap_s);
     size_t row = wrap(y, image->height_px, texture->wrap_t);
-    return image->rgba[4 * (row * image->width_px + column) + 3] / 255.0;
+    const uint8_t *texels = image->levels ? image->levels : image->rgba;
+    return gn_packing_alpha(image->packing, texels, image->width_px, (uint32_t)column,
+                            (uint32_t)row) /
+           255.0;
 }
 
 static double sample_alpha(const struct gn_scene *scene, const struct gn_texture *texture, double u,

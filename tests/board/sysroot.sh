@@ -17,7 +17,7 @@ suite=${SUITE:-$codename}
 root=$store/${FOR:-root}-$architecture-$suite-$(sha256sum < "$0" | cut -c 1-12)
 state=$store/apt-${FOR:-}${FOR:+-}$architecture-$suite
 
-build='libc6-dev libjansson-dev libpng-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
+build='libc6-dev libjansson-dev libpng-dev zlib1g-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
     libcglm-dev libdrm-dev libgbm-dev libudev-dev libcmocka-dev'
 run='bash coreutils findutils grep mawk sed diffutils util-linux kbd kmscube libegl1 libgles2
     libegl-mesa0 libgl1-mesa-dri busybox-static'

@@ -155,7 +155,7 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
         take_whole(g, &extras, "gnomon_slide", 0, (int64_t)g->file.texture_count - 1, &slide);
     else if (has_slide)
         gn_gltf_warn(g, &extras, "gnomon_slide: the file has no textures; ignored");
-    if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t)slide);
+    if (slide >= 0) light->slide = gn_gltf_texture(g, (int32_t)slide, GN_SCALE_COLOR);
     take_pair(g, &extras, "gnomon_slide_size_m", light->slide_size_m);
     take_float(g, &extras, "gnomon_slide_distance_m", 1e6f, &light->slide_distance_m);
     take_float(g, &extras, "gnomon_slide_far_m", 1e6f, &light->slide_far_m);
@@ -180,7 +180,7 @@ void gn_extras_material(struct gn_gltf *g, const struct gn_at *material, int lig
         gn_gltf_warn(g, &extras,
                      "gnomon_lightmap: the material reads two other sets of coordinates; ignored");
     else
-        ref->texture = gn_gltf_texture(g, (int32_t)texture);
+        ref->texture = gn_gltf_texture(g, (int32_t)texture, GN_SCALE_COLOR);
     ref->uv_set = lightmap_set > 0 ? (uint8_t)lightmap_set : 0;
 }
 

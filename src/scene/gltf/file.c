@@ -146,6 +146,7 @@ static const char *const SUPPORTED[] = {
     "KHR_materials_clearcoat",
     "KHR_materials_transmission",
     "EXT_texture_webp",
+    "KHR_texture_basisu",
     "KHR_materials_variants",
     "KHR_animation_pointer",
     "KHR_node_visibility",
@@ -157,8 +158,6 @@ static const struct cure {
     {"KHR_draco_mesh_compression", "decompress it first (gltf-transform can)"},
     {"EXT_meshopt_compression", "decompress it first (gltf-transform can)"}, /* not in this build */
     {"KHR_meshopt_compression", "decompress it first (gltf-transform can)"},
-    {"KHR_texture_basisu", "export the scene with PNG or JPEG pictures; KTX-Software's \"ktx "
-                           "extract\" makes PNG of .ktx2"},
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 
@@ -170,16 +169,21 @@ static bool is_supported(const char *name) {
            gn_meshopt_is_read();
 }
 
-bool gn_gltf_uses(const struct gn_gltf *g, const char *extension) {
-    static const char *const lists[] = {"extensionsRequired", "extensionsUsed"};
-    for (int k = 0; k < 2; k++) {
-        const json_t *names = json_object_get(g->file.json, lists[k]);
-        for (size_t i = 0; i < json_array_size(names); i++) {
-            const char *name = json_string_value(json_array_get(names, i));
-            if (name && strcmp(name, extension) == 0) return true;
-        }
+static bool lists_extension(const struct gn_gltf *g, const char *list, const char *extension) {
+    const json_t *names = json_object_get(g->file.json, list);
+    for (size_t i = 0; i < json_array_size(names); i++) {
+        const char *name = json_string_value(json_array_get(names, i));
+        if (name && strcmp(name, extension) == 0) return true;
     }
     return false;
+}
+
+bool gn_gltf_requires(const struct gn_gltf *g, const char *extension) {
+    return lists_extension(g, "extensionsRequired", extension);
+}
+
+bool gn_gltf_uses(const struct gn_gltf *g, const char *extension) {
+    return gn_gltf_requires(g, extension) || lists_extension(g, "extensionsUsed", extension);
 }
 
 bool gn_gltf_check_support(struct gn_gltf *g) {

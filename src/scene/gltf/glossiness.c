@@ -50,6 +50,7 @@ bool gn_gltf_glossiness(struct gn_gltf *g, float factor, int32_t *texture, float
     struct gn_glossy *known = &g->pictures.glossy[*texture];
     if (!known->made) {
         const struct gn_image *image = &pictures->images[pictures->textures[*texture].image];
+        if (!image->rgba) return false; /* compressed into blocks */
         find_mean(image, known->mean);
         if (!make_rough(g, image, factor, &pictures->images[pictures->image_count])) return false;
         known->made = true;

@@ -3,6 +3,7 @@
 #include "scene/private.h"
 
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,7 +11,7 @@
 #include "core/encoding.h"
 #include "image/read.h"
 
-enum { UNSEEN = -1, DROPPED = -2 };
+enum { UNSEEN = -1, DROPPED = -2, BASIS = -3 };
 
 static const struct format {
     const char *magic, *form; /* first bytes, and those from byte 8 on */
@@ -22,8 +23,10 @@ static const struct format {
     {"\x89PNG\r\n\x1a\n", "", 8, gn_png_size, gn_png_work_bytes, gn_png_read},
     {"\xff\xd8\xff", "", 3, gn_jpeg_size, gn_jpeg_work_bytes, gn_jpeg_read},
     {"RIFF", "WEBP", 4, gn_webp_size, gn_webp_work_bytes, gn_webp_read},
+    {GN_KTX2_MAGIC, "", 12, gn_ktx2_size, gn_ktx2_work_bytes, gn_ktx2_read},
 };
-#define OTHER_FORMAT "neither PNG, JPEG nor WebP"
+#define OTHER_FORMAT "neither PNG, JPEG, WebP nor KTX2"
+enum { KTX2 = sizeof FORMATS / sizeof FORMATS[0] - 1 };
 enum { HEAD_BYTES = 12 }; /* that tell the format */
 
 /* ---- pictures ---- */
@@ -44,26 +47,20 @@ static const struct format *format_of(const void *data, size_t size) {
  * seven passes. A row counts as so many texels more. */
 enum { ROW_WORK = 128 };
 
-static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct gn_image *image,
-                         struct gn_err *err) {
-    const struct format *format = format_of(blob->data, blob->size);
-    uint32_t px[2] = {0};
-    if (!format) return gn_fail(err, OTHER_FORMAT);
-    if (!format->size(blob->data, blob->size, px, err)) return false;
-    uint64_t texels = (uint64_t)px[0] * px[1];
-    const uint64_t with_mipmaps = 4 * (texels + texels / 3);
+bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
+                          struct gn_err *err) {
+    const uint32_t *px = need->px;
+    const uint64_t texels = (uint64_t)px[0] * px[1];
     if (texels == 0) return gn_fail(err, "width or height is 0");
     if (texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
         return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
                        px[1], g->limits.texels);
     /* the decoder's memory is free again before the GPU has the picture */
-    const uint64_t decoding = format->work_bytes(blob->data, blob->size, px);
-    if (4 * texels + (decoding > with_mipmaps ? decoding : with_mipmaps) > gn_gltf_room(g))
-        return gn_fail(err, "exceeds the limit memory_mb");
-    if (g->decoded_bytes + 4 * texels + decoding > g->limits.decoded_mb << 20)
+    const uint64_t more = need->decoding > need->on_gpu ? need->decoding : need->on_gpu;
+    if (need->kept + more > gn_gltf_room(g)) return gn_fail(err, "exceeds the limit memory_mb");
+    if (g->decoded_bytes + need->kept + need->decoding > g->limits.decoded_mb << 20)
         return gn_fail(err, "not decoded: over the limit decoded_mb=%" PRIu64,
                        g->limits.decoded_mb);
-    const uint64_t work = texels + (uint64_t)ROW_WORK * px[1];
     if (g->decode_work > (g->limits.memory_mb << 20) / 4)
         return gn_fail(err,
                        "not decoded: pictures of narrow rows take too long for memory_mb=%" PRIu64,
@@ -71,20 +68,83 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, struct g
     if (g->damaged_work > g->limits.texels)
         return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
                        g->limits.texels);
-    uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, texels, 4);
+    return true;
+}
+
+static uint64_t work_of(const struct gn_picture_need *need) {
+    return (uint64_t)need->px[0] * need->px[1] + (uint64_t)ROW_WORK * need->px[1];
+}
+
+void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need) {
+    g->decode_work += work_of(need);
+    g->decoded_bytes += need->kept;
+    g->memory.other_bytes += need->on_gpu;
+}
+
+/* Halves the longer side until it fits; false: it fits as it is. */
+static bool shrink_px(const struct gn_gltf *g, const uint32_t px[2], uint32_t to[2]) {
+    uint32_t level = 0, longer = px[0] > px[1] ? px[0] : px[1];
+    while (g->limits.texture_px > 0 && gn_level_px(longer, level) > g->limits.texture_px) level++;
+    for (int k = 0; k < 2; k++) to[k] = gn_level_px(px[k], level);
+    return level > 0;
+}
+
+/* Into the scene's memory, or, if it is to be scaled, by way of the system's. */
+static bool read_pixels(struct gn_gltf *g, const struct gn_blob *blob,
+                        const struct gn_picture_need *whole, const uint32_t px[2],
+                        enum gn_scale_kind kind, uint8_t **out, struct gn_err *err) {
+    const struct format *format = format_of(blob->data, blob->size);
+    const bool smaller = px[0] != whole->px[0] || px[1] != whole->px[1];
+    const uint64_t kept = 4 * (uint64_t)px[0] * px[1];
+    uint8_t *rgba = *out = gn_gltf_alloc(g, g->memory.scene, kept, 1);
     if (!rgba || !gn_gltf_check_time(g)) return false;
-    if (!format->read(blob->data, blob->size, px, rgba, err)) {
-        g->damaged_work += work;
-        gn_arena_undo(g->memory.scene, rgba, 4 * texels);
+    if (smaller) rgba = malloc(4 * (uint64_t)whole->px[0] * whole->px[1]);
+    const bool done = rgba ? format->read(blob->data, blob->size, whole->px, rgba, err)
+                           : gn_fail(err, "out of memory");
+    if (done && smaller) gn_picture_scale(rgba, whole->px, kind, *out, px);
+    if (!done) gn_arena_undo(g->memory.scene, *out, kept);
+    if (smaller) free(rgba);
+    return done;
+}
+
+static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_scale_kind kind,
+                         struct gn_image *image, struct gn_err *err) {
+    const struct format *format = format_of(blob->data, blob->size);
+    struct gn_picture_need need = {0};
+    uint32_t px[2];
+    uint8_t *rgba;
+    if (!format) return gn_fail(err, OTHER_FORMAT);
+    if (!format->size(blob->data, blob->size, need.px, err)) return false;
+    const bool smaller = shrink_px(g, need.px, px);
+    const uint64_t texels = (uint64_t)px[0] * px[1];
+    need.kept = 4 * texels;
+    need.on_gpu = 4 * (texels + texels / 3);
+    need.decoding = format->work_bytes(blob->data, blob->size, need.px) +
+                    (smaller ? 4 * (uint64_t)need.px[0] * need.px[1] : 0);
+    if (!gn_gltf_picture_fits(g, &need, err)) return false;
+    if (!read_pixels(g, blob, &need, px, kind, &rgba, err)) {
+        g->damaged_work += work_of(&need);
         return false;
     }
-    g->decode_work += work;
-    g->decoded_bytes += 4 * texels;
-    g->memory.other_bytes += with_mipmaps;
+    gn_gltf_picture_count(g, &need);
     *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
-    for (uint64_t i = 0; i < texels && !image->has_alpha; i++)
-        image->has_alpha = rgba[4 * i + 3] != 255;
+    image->has_alpha = gn_packing_has_alpha(GN_PACKING_RGBA8, rgba, px);
     return true;
+}
+
+/* KTX2 whose levels or blocks go to the GPU as they are, or any picture as pixels; *basis: it
+ * failed since it is Basis Universal's. */
+static bool take_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_scale_kind kind,
+                       struct gn_image *image, bool *basis, struct gn_err *err) {
+    struct gn_ktx2 ktx2;
+    if (format_of(blob->data, blob->size) != &FORMATS[KTX2])
+        return decode_image(g, blob, kind, image, err);
+    const bool known = gn_ktx2_open(blob->data, blob->size, &ktx2, err);
+    *basis = ktx2.basis;
+    if (!known) return false;
+    if (ktx2.level_count == 1 && ktx2.packing == GN_PACKING_RGBA8)
+        return decode_image(g, blob, kind, image, err);
+    return gn_gltf_levels(g, blob, &ktx2, image, err);
 }
 
 /* The source of an image: bytes, or an open file of which only the identity is known. */
@@ -143,8 +203,18 @@ static size_t first_image_of(struct gn_gltf *g, const struct source *source, siz
     return index;
 }
 
-/* The index of the scene's image for one of the file, or DROPPED. */
-static int32_t image_at(struct gn_gltf *g, int32_t index) {
+/* A texture shows nothing but that image: the scene is refused where it says that it needs it. */
+static void miss_basis(struct gn_gltf *g, int32_t index) {
+    struct gn_at root = gn_at_root(g), images = gn_at_array(g, &root, "images");
+    struct gn_at at = gn_at_item(g, &images, (size_t)index);
+    g->is_missing[GN_MISSING_BASISU] = true;
+    if (gn_gltf_requires(g, "KHR_texture_basisu")) gn_gltf_fail(g, &at, "%s", GN_KTX2_BASIS);
+}
+
+/* The index of the scene's image for one of the file, or DROPPED or BASIS. other: the image that
+ * the texture shows instead of one that cannot be read, or -1. */
+static int32_t image_at(struct gn_gltf *g, int32_t index, int32_t other, enum gn_scale_kind kind) {
+    if (g->to_scene.image[index] == BASIS && other < 0) miss_basis(g, index);
     if (g->to_scene.image[index] != UNSEEN) return g->to_scene.image[index];
     g->to_scene.image[index] = DROPPED;
     struct gn_scene_pictures *pictures = &g->scene->pictures;
@@ -152,18 +222,24 @@ static int32_t image_at(struct gn_gltf *g, int32_t index) {
     struct gn_at at = gn_at_item(g, &images, (size_t)index);
     struct source source;
     struct gn_err err = {0};
+    bool basis = false;
     if (gn_gltf_check_time(g) && open_source(g, &at, &source, &err)) {
         const size_t first = first_image_of(g, &source, (size_t)index);
         if (first != (size_t)index) {
             g->to_scene.image[index] = g->to_scene.image[first];
             gn_fail(&err, "the same picture as images[%zu]", first);
         } else if (read_source(g, &source, &err) &&
-                   decode_image(g, &source.blob, &pictures->images[pictures->image_count], &err))
+                   take_image(g, &source.blob, kind, &pictures->images[pictures->image_count],
+                              &basis, &err))
             g->to_scene.image[index] = (int32_t)pictures->image_count++;
+        if (basis) g->to_scene.image[index] = BASIS;
         if (source.fd >= 0) close(source.fd);
         gn_blob_finish(g, &source.blob);
     }
-    if (g->to_scene.image[index] == DROPPED && !g->failed)
+    if (basis && other < 0) miss_basis(g, index);
+    if (g->to_scene.image[index] < 0 && !g->failed && other >= 0)
+        gn_gltf_warn(g, &at, "%s; images[%" PRId32 "] is shown instead", err.text, other);
+    else if (g->to_scene.image[index] < 0 && !g->failed)
         gn_gltf_warn(g, &at, "%s; shown without this picture", err.text);
     return g->to_scene.image[index];
 }
@@ -228,7 +304,23 @@ static bool allocate_textures(struct gn_gltf *g) {
     return true;
 }
 
-int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
+/* The scene's image of a texture: that of an extension, else its own. */
+static int32_t texture_image(struct gn_gltf *g, const struct gn_at *at, enum gn_scale_kind kind) {
+    const struct gn_at webp = gn_at_extension(g, at, "extensions.EXT_texture_webp");
+    const struct gn_at basisu = gn_at_extension(g, at, "extensions.KHR_texture_basisu");
+    int32_t source = gn_at_ref(g, at, "source", g->file.image_count, "images"), image = -1;
+    if (webp.json && (gn_webp_is_read() || source < 0))
+        source = gn_at_ref(g, &webp, "source", g->file.image_count, "images");
+    const int32_t ktx2 =
+        basisu.json ? gn_at_ref(g, &basisu, "source", g->file.image_count, "images") : -1;
+    if (ktx2 >= 0 && !g->failed) image = image_at(g, ktx2, source, kind);
+    if (image < 0 && source >= 0 && !g->failed) image = image_at(g, source, -1, kind);
+    if (source < 0 && ktx2 < 0 && !g->failed)
+        gn_gltf_warn(g, at, "has no source; shown without this texture");
+    return g->failed ? -1 : image;
+}
+
+int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index, enum gn_scale_kind kind) {
     if (g->failed || !allocate_textures(g)) return -1;
     if (g->to_scene.texture[index] != UNSEEN)
         return g->to_scene.texture[index] < 0 ? -1 : g->to_scene.texture[index];
@@ -237,18 +329,7 @@ int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index) {
     struct gn_at samplers = gn_at_array(g, &root, "samplers");
     struct gn_at at = gn_at_item(g, &textures, (size_t)index);
     int32_t sampler = gn_at_ref(g, &at, "sampler", gn_at_size(&samplers), "samplers");
-    int32_t source = gn_at_ref(g, &at, "source", g->file.image_count, "images");
-    struct gn_at webp = gn_at_extension(g, &at, "extensions.EXT_texture_webp");
-    bool basisu = gn_at_extension(g, &at, "extensions.KHR_texture_basisu").json != NULL;
-    if (webp.json && (gn_webp_is_read() || source < 0))
-        source = gn_at_ref(g, &webp, "source", g->file.image_count, "images");
-    if (source < 0 && !g->failed) {
-        if (basisu)
-            g->is_missing[GN_MISSING_BASISU] = true;
-        else
-            gn_gltf_warn(g, &at, "has no source; shown without this texture");
-    }
-    int32_t image = source < 0 || g->failed ? -1 : image_at(g, source);
+    const int32_t image = texture_image(g, &at, kind);
     if (image < 0) return -1;
     struct gn_at sampler_at =
         sampler < 0 ? (struct gn_at){0} : gn_at_item(g, &samplers, (size_t)sampler);

@@ -71,8 +71,14 @@ void gn_gltf_uv_sets(struct gn_gltf *g, int32_t material, uint64_t sets[GN_UV_SE
     memcpy(sets, found, sizeof found);
 }
 
+static enum gn_scale_kind kind_of(int slot) {
+    if (slot == GN_TEXTURE_NORMAL) return GN_SCALE_NORMALS;
+    return gn_texture_slots[slot].texels == GN_TEXELS_SRGB ? GN_SCALE_COLOR : GN_SCALE_DATA;
+}
+
 static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
-                         const uint64_t sets[GN_UV_SETS], struct gn_texture_ref *ref) {
+                         const uint64_t sets[GN_UV_SETS], enum gn_scale_kind kind,
+                         struct gn_texture_ref *ref) {
     bool transformed = false;
     int32_t texture = gn_at_ref(g, at, "index", g->file.texture_count, "textures");
     const uint64_t uv_set = read_uv(g, at, ref->uv_from_uv, &transformed);
@@ -89,7 +95,7 @@ static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
                      (unsigned long long)uv_set, (unsigned long long)sets[0],
                      (unsigned long long)sets[1]);
     } else {
-        ref->texture = gn_gltf_texture(g, texture);
+        ref->texture = gn_gltf_texture(g, texture, kind);
         ref->uv_set = (uint8_t)place;
     }
 }
@@ -134,10 +140,10 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
     m->metalness = 0;
     struct gn_at both = gn_at_object(g, at, "specularGlossinessTexture");
     struct gn_at base = gn_at_object(g, at, "diffuseTexture");
-    read_texture(g, &base, used, sets, &m->textures[GN_TEXTURE_BASE]);
+    read_texture(g, &base, used, sets, GN_SCALE_COLOR, &m->textures[GN_TEXTURE_BASE]);
     struct gn_texture_ref *rough = &m->textures[GN_TEXTURE_ROUGHNESS];
     rough->texture = -1;
-    read_texture(g, &both, used, sets, rough);
+    read_texture(g, &both, used, sets, GN_SCALE_COLOR, rough);
     if (rough->texture >= 0) {
         float mean[3];
         if (gn_gltf_glossiness(g, 1 - m->roughness, &rough->texture, mean)) {
@@ -276,7 +282,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
         const bool needless = (slot == GN_TEXTURE_TRANSMISSION || slot == GN_TEXTURE_COAT ||
                                slot == GN_TEXTURE_COAT_ROUGHNESS) &&
                               !gn_material_reads(m, slot);
-        read_texture(g, &texture, used && !needless, sets, &m->textures[slot]);
+        read_texture(g, &texture, used && !needless, sets, kind_of(slot), &m->textures[slot]);
     }
     struct gn_at gloss = gn_at_extension(g, at, GLOSSINESS);
     if (gloss.json)

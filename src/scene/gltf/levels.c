@@ -1,0 +1,40 @@
+/* Pictures of KTX2 that the GPU gets as the file has them: blocks of ETC2 and EAC, and levels that
+ * somebody made with care. */
+#include "scene/private.h"
+
+#include <inttypes.h>
+
+/* The first level whose sides are within texture_px, or the last one. */
+static uint32_t first_level(const struct gn_gltf *g, const struct gn_ktx2 *ktx2) {
+    const uint32_t longer = ktx2->px[0] > ktx2->px[1] ? ktx2->px[0] : ktx2->px[1];
+    uint32_t level = 0;
+    while (g->limits.texture_px > 0 && level + 1 < ktx2->level_count &&
+           gn_level_px(longer, level) > g->limits.texture_px)
+        level++;
+    return level;
+}
+
+bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct gn_ktx2 *ktx2,
+                    struct gn_image *image, struct gn_err *err) {
+    const uint32_t first = first_level(g, ktx2), count = ktx2->level_count - first;
+    struct gn_picture_need need = {.decoding = gn_ktx2_level_work_bytes(ktx2)};
+    for (int k = 0; k < 2; k++) need.px[k] = gn_level_px(ktx2->px[k], first);
+    need.kept = need.on_gpu = gn_packing_all_bytes(ktx2->packing, need.px, count);
+    if (!gn_gltf_picture_fits(g, &need, err)) return false;
+    uint8_t *levels = gn_gltf_alloc(g, g->memory.scene, need.kept, 1);
+    if (!levels || !gn_gltf_check_time(g)) return false;
+    if (!gn_ktx2_read_levels(blob->data, blob->size, ktx2, first, levels, err)) {
+        g->damaged_work += (uint64_t)need.px[0] * need.px[1];
+        gn_arena_undo(g->memory.scene, levels, need.kept);
+        return false;
+    }
+    gn_gltf_picture_count(g, &need);
+    *image = (struct gn_image){.width_px = need.px[0],
+                               .height_px = need.px[1],
+                               .rgba = ktx2->packing == GN_PACKING_RGBA8 ? levels : NULL,
+                               .levels = levels,
+                               .packing = ktx2->packing,
+                               .level_count = count,
+                               .has_alpha = gn_packing_has_alpha(ktx2->packing, levels, need.px)};
+    return true;
+}
