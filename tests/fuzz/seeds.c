@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "unit/ktx2_maker.h"
 #include "unit/meshopt_bytes.h"
 #include "unit/webp_bytes.h"
 
@@ -296,13 +297,36 @@ static void seed_posed(struct gn_maker *m) {
     gn_maker_add(m, "animations", json);
 }
 
+static void seed_ktx2(struct gn_maker *m) {
+    static const uint8_t grey[] = {90, 60};
+    add_rich_mesh(m);
+    struct gn_made pictures[] = {gn_maker_ktx2_etc2(16, 8, 4, GN_KTX2_ZSTD, 99),
+                                 gn_maker_ktx2_etc2(8, 8, 1, 0, 255),
+                                 gn_maker_ktx2(&(struct gn_ktx2_spec){.vk = GN_VK_R8,
+                                                                      .px = {6, 5},
+                                                                      .levels = 2,
+                                                                      .scheme = GN_KTX2_ZLIB,
+                                                                      .units = grey,
+                                                                      .unit_bytes = 1,
+                                                                      .unit_px = 1})};
+    for (size_t i = 0; i < 3; i++) {
+        add_picture(m, "ktx2", pictures[i].data, pictures[i].size);
+        free(pictures[i].data);
+    }
+    gn_maker_add(m, "samplers", "{}");
+    for (int i = 0; i < 2; i++)
+        gn_maker_add(m, "textures",
+                     "{'source':1,'extensions':{'KHR_texture_basisu':{'source':0}}}");
+    add_materials(m);
+}
+
 /* Everything that can stand beside each other, as .gltf with a data URI. */
 static void seed_text(struct gn_maker *m) { seed_rich(m); }
 
 struct gn_made gn_seed_make(int number) {
     static void (*const make[GN_SEED_COUNT])(struct gn_maker *) = {
-        seed_plain,     seed_rich,      seed_lights,     seed_animated, seed_sparse,
-        seed_quantized, seed_instanced, seed_compressed, seed_posed,    seed_text};
+        seed_plain,     seed_rich,       seed_lights, seed_animated, seed_sparse, seed_quantized,
+        seed_instanced, seed_compressed, seed_posed,  seed_ktx2,     seed_text};
     struct gn_maker maker;
     gn_maker_init(&maker);
     make[number](&maker);

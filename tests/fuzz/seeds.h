@@ -4,7 +4,7 @@
 
 #include "unit/gltf_maker.h"
 
-enum { GN_SEED_COUNT = 10 };
+enum { GN_SEED_COUNT = 11 };
 struct gn_made gn_seed_make(int number);
 
 #endif

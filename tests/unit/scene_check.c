@@ -146,8 +146,10 @@ static const char *check_looks(const struct gn_scene *scene) {
         NEED(scene->pictures.textures[i].image < scene->pictures.image_count);
     for (uint32_t i = 0; i < scene->pictures.image_count; i++) {
         const struct gn_image *image = &scene->pictures.images[i];
-        NEED(image->width_px > 0 && image->height_px > 0 && image->rgba);
-        NEED(image->rgba[4 * (size_t)image->width_px * image->height_px - 1] == 255 ||
+        NEED(image->width_px > 0 && image->height_px > 0 && (image->rgba || image->levels));
+        NEED(!image->levels || image->level_count > 0);
+        NEED(!image->rgba ||
+             image->rgba[4 * (size_t)image->width_px * image->height_px - 1] == 255 ||
              image->has_alpha);
     }
     for (uint32_t i = 0; i < scene->material_count; i++) {

@@ -194,9 +194,9 @@ static void test_broken_pictures_cost_a_warning(void **state) {
     uint8_t rgba[64 * 64 * 4];
     for (size_t i = 0; i < sizeof rgba; i++) rgba[i] = (uint8_t)(i * 2654435761U >> 24);
     struct gn_made png = gn_maker_png(64, 64, rgba);
-    expect_dropped("GIF89a", 6, "neither PNG, JPEG nor WebP");
-    expect_dropped("RIFF\x10\0\0\0WAVEfmt ", 16, "neither PNG, JPEG nor WebP");
-    expect_dropped(gn_webp_lossless, 11, "neither PNG, JPEG nor WebP");
+    expect_dropped("GIF89a", 6, "neither PNG, JPEG, WebP nor KTX2");
+    expect_dropped("RIFF\x10\0\0\0WAVEfmt ", 16, "neither PNG, JPEG, WebP nor KTX2");
+    expect_dropped(gn_webp_lossless, 11, "neither PNG, JPEG, WebP nor KTX2");
     expect_dropped(gn_webp_lossless, sizeof gn_webp_lossless - 9, "WebP");
     expect_dropped(png.data, 20, "PNG: truncated");
     expect_dropped(png.data, png.size / 2, "PNG: truncated");
@@ -332,12 +332,12 @@ static void test_missing_picture_file(void **state) {
 
 static void test_later_work_is_named_once(void **state) {
     (void)state;
-    gn_maker_set(&maker, "textures", "[{'extensions':{'KHR_texture_basisu':{'source':0}}}]");
     gn_maker_set(&maker, "materials",
-                 "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0}}}]");
+                 "[{'extensions':{'KHR_materials_sheen':{}}},"
+                 "{'extensions':{'KHR_materials_sheen':{}}}]");
     struct gn_scene *scene = load();
     assert_int_equal(warnings.count, 1);
-    assert_string_equal(warnings.text[0], "t: shown without KTX2 pictures: not supported yet");
+    assert_string_equal(warnings.text[0], "t: shown without sheen: not supported yet");
     gn_scene_destroy(scene);
 }
 

@@ -194,7 +194,7 @@ static void test_a_large_file_that_is_no_picture_is_not_read(void **state) {
     fclose(file);
     struct gn_scene *scene = load_images(uris, 1, 60);
     assert_non_null(
-        strstr(warnings.text[0], "images[0]: neither PNG, JPEG nor WebP; shown without"));
+        strstr(warnings.text[0], "images[0]: neither PNG, JPEG, WebP nor KTX2; shown without"));
     assert_non_null(strstr(warnings.text[1], "images[1]: the same picture as images[0]; shown"));
     gn_scene_destroy(scene);
     unlink(path_of("zeros.png"));
