@@ -250,12 +250,12 @@ static void test_levels_are_within_memory_mb(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_channels_become_rgba, setup_textured),
-        cmocka_unit_test_setup(test_blocks_keep_their_levels, setup_textured),
+        cmocka_unit_test(test_channels_become_rgba),
+        cmocka_unit_test(test_blocks_keep_their_levels),
         cmocka_unit_test_setup(test_opaque_blocks_have_no_alpha, setup_textured),
         cmocka_unit_test(test_alpha_of_punched_blocks),
-        cmocka_unit_test_setup(test_basis_falls_back_to_the_source, setup_textured),
-        cmocka_unit_test_setup(test_basis_alone_is_refused_where_it_is_required, setup_textured),
+        cmocka_unit_test(test_basis_falls_back_to_the_source),
+        cmocka_unit_test(test_basis_alone_is_refused_where_it_is_required),
         cmocka_unit_test_setup(test_larger_levels_are_skipped, setup_textured),
         cmocka_unit_test_setup(test_larger_pictures_are_halved, setup_textured),
         cmocka_unit_test(test_broken_files_cost_a_warning),
