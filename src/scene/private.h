@@ -353,7 +353,8 @@ struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents);
 /* gltf/image.c: the scene's texture for one of the file, created at its first use; -1: none, or
  * dropped with a warning. kind: of its picture, where that is made smaller. */
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture, enum gn_scale_kind kind);
-/* What a picture takes: pixels and bytes that stay, those of decoding it, those on the GPU. */
+/* gltf/memory.c: what a picture takes: pixels and bytes that stay, those of decoding it, those on
+ * the GPU. */
 struct gn_picture_need {
     uint32_t px[2];
     uint64_t kept, decoding, on_gpu;
@@ -361,6 +362,8 @@ struct gn_picture_need {
 /* Fails where that is over a limit. */
 bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
                           struct gn_err *err);
+/* The time of decoding it, as texels. */
+uint64_t gn_gltf_picture_work(const struct gn_picture_need *need);
 /* Counts a picture that was decoded. */
 void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need);
 

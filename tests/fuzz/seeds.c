@@ -300,15 +300,16 @@ static void seed_posed(struct gn_maker *m) {
 static void seed_ktx2(struct gn_maker *m) {
     static const uint8_t grey[] = {90, 60};
     add_rich_mesh(m);
-    struct gn_made pictures[] = {gn_maker_ktx2_etc2(16, 8, 4, GN_KTX2_ZSTD, 99),
-                                 gn_maker_ktx2_etc2(8, 8, 1, 0, 255),
-                                 gn_maker_ktx2(&(struct gn_ktx2_spec){.vk = GN_VK_R8,
+    /* the first one as pixels: a texture of glossiness is read on the CPU */
+    struct gn_made pictures[] = {gn_maker_ktx2(&(struct gn_ktx2_spec){.vk = GN_VK_R8,
                                                                       .px = {6, 5},
                                                                       .levels = 2,
                                                                       .scheme = GN_KTX2_ZLIB,
                                                                       .units = grey,
                                                                       .unit_bytes = 1,
-                                                                      .unit_px = 1})};
+                                                                      .unit_px = 1}),
+                                 gn_maker_ktx2_etc2(16, 8, 4, GN_KTX2_ZSTD, 99),
+                                 gn_maker_ktx2_etc2(8, 8, 1, GN_KTX2_PLAIN, 255)};
     for (size_t i = 0; i < 3; i++) {
         add_picture(m, "ktx2", pictures[i].data, pictures[i].size);
         free(pictures[i].data);
@@ -316,7 +317,7 @@ static void seed_ktx2(struct gn_maker *m) {
     gn_maker_add(m, "samplers", "{}");
     for (int i = 0; i < 2; i++)
         gn_maker_add(m, "textures",
-                     "{'source':1,'extensions':{'KHR_texture_basisu':{'source':0}}}");
+                     "{'source':0,'extensions':{'KHR_texture_basisu':{'source':1}}}");
     add_materials(m);
 }
 

@@ -43,44 +43,6 @@ static const struct format *format_of(const void *data, size_t size) {
     return NULL;
 }
 
-/* Decoding costs time by texels, and by rows where these are short: libpng visits each in up to
- * seven passes. A row counts as so many texels more. */
-enum { ROW_WORK = 128 };
-
-bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
-                          struct gn_err *err) {
-    const uint32_t *px = need->px;
-    const uint64_t texels = (uint64_t)px[0] * px[1];
-    if (texels == 0) return gn_fail(err, "width or height is 0");
-    if (texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
-        return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
-                       px[1], g->limits.texels);
-    /* the decoder's memory is free again before the GPU has the picture */
-    const uint64_t more = need->decoding > need->on_gpu ? need->decoding : need->on_gpu;
-    if (need->kept + more > gn_gltf_room(g)) return gn_fail(err, "exceeds the limit memory_mb");
-    if (g->decoded_bytes + need->kept + need->decoding > g->limits.decoded_mb << 20)
-        return gn_fail(err, "not decoded: over the limit decoded_mb=%" PRIu64,
-                       g->limits.decoded_mb);
-    if (g->decode_work > (g->limits.memory_mb << 20) / 4)
-        return gn_fail(err,
-                       "not decoded: pictures of narrow rows take too long for memory_mb=%" PRIu64,
-                       g->limits.memory_mb);
-    if (g->damaged_work > g->limits.texels)
-        return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
-                       g->limits.texels);
-    return true;
-}
-
-static uint64_t work_of(const struct gn_picture_need *need) {
-    return (uint64_t)need->px[0] * need->px[1] + (uint64_t)ROW_WORK * need->px[1];
-}
-
-void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need) {
-    g->decode_work += work_of(need);
-    g->decoded_bytes += need->kept;
-    g->memory.other_bytes += need->on_gpu;
-}
-
 /* Halves the longer side until it fits; false: it fits as it is. */
 static bool shrink_px(const struct gn_gltf *g, const uint32_t px[2], uint32_t to[2]) {
     uint32_t level = 0, longer = px[0] > px[1] ? px[0] : px[1];
@@ -123,7 +85,7 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_
                     (smaller ? 4 * (uint64_t)need.px[0] * need.px[1] : 0);
     if (!gn_gltf_picture_fits(g, &need, err)) return false;
     if (!read_pixels(g, blob, &need, px, kind, &rgba, err)) {
-        g->damaged_work += work_of(&need);
+        g->damaged_work += gn_gltf_picture_work(&need);
         return false;
     }
     gn_gltf_picture_count(g, &need);

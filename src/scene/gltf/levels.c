@@ -24,7 +24,7 @@ bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct 
     uint8_t *levels = gn_gltf_alloc(g, g->memory.scene, need.kept, 1);
     if (!levels || !gn_gltf_check_time(g)) return false;
     if (!gn_ktx2_read_levels(blob->data, blob->size, ktx2, first, levels, err)) {
-        g->damaged_work += (uint64_t)need.px[0] * need.px[1];
+        g->damaged_work += gn_gltf_picture_work(&need);
         gn_arena_undo(g->memory.scene, levels, need.kept);
         return false;
     }
