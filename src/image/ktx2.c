@@ -128,7 +128,7 @@ static bool read_level(const uint8_t *data, const struct gn_ktx2 *k, uint32_t le
     else if (!(k->scheme == SCHEME_ZSTD ? gn_zstd_unpack : unpack_zlib)(from, size, out, bytes,
                                                                         err))
         return false;
-    if (k->channels < 4) widen_texels(out, bytes / k->channels, k->channels);
+    if (k->channels > 0 && k->channels < 4) widen_texels(out, bytes / k->channels, k->channels);
     return true;
 }
 

@@ -41,7 +41,7 @@ uint64_t gn_packing_all_bytes(enum gn_packing packing, const uint32_t px[2], uin
 /* ---- alpha ---- */
 
 static uint8_t eac_alpha(const uint8_t block[8], uint32_t texel) {
-    static const int8_t modifiers[16][8] = {
+    static const int modifiers[16][8] = {
         {-3, -6, -9, -15, 2, 5, 8, 14}, {-3, -7, -10, -13, 2, 6, 9, 12},
         {-2, -5, -8, -13, 1, 4, 7, 12}, {-2, -4, -6, -13, 1, 3, 5, 12},
         {-3, -6, -8, -12, 2, 5, 7, 11}, {-3, -7, -9, -11, 2, 6, 8, 10},
