@@ -42,8 +42,32 @@ struct gn_node gn_fade_node(const struct gn_fade *fade, const struct gn_pose *po
     return out;
 }
 
-void gn_fade_keep(struct gn_fade *fade, const struct gn_pose *pose, const struct gn_node *local,
+/* Of more parts than there is room for the least one goes to the greatest. */
+static void keep_parts(struct gn_pose *pose) {
+    struct gn_pose_part *const parts = pose->before;
+    struct gn_pose_part now = {pose->clips, pose->over, pose->fade < 1 ? pose->fade : 1};
+    const float rest = 1 - now.share;
+    int least = 0, greatest = 0;
+    for (int i = 0; i < GN_POSE_PARTS; i++) {
+        parts[i].share *= rest;
+        if (parts[i].clips == now.clips && parts[i].over == now.over) {
+            now.share += parts[i].share;
+            parts[i].share = 0;
+        }
+        if (parts[i].share < parts[least].share) least = i;
+        if (parts[i].share > parts[greatest].share) greatest = i;
+    }
+    if (now.share < parts[least].share) {
+        parts[greatest].share += now.share;
+        return;
+    }
+    *(greatest == least ? &now.share : &parts[greatest].share) += parts[least].share;
+    parts[least] = now;
+}
+
+void gn_fade_keep(struct gn_fade *fade, struct gn_pose *pose, const struct gn_node *local,
                   const struct gn_deformer *deformer) {
+    keep_parts(pose);
     const struct gn_scene *scene = pose->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
         const bool mixes = pose->node_moves[i] && pose->fade < 1;

@@ -6,19 +6,42 @@
 
 static const float FILLED = .92f; /* of half of the picture */
 
-/* How far the points reach along n, from the centre. A point that turns about the vertical axis
- * reaches farthest where its radius points as n does. */
-static float find_reach(const struct gn_framing_fit *fit, const vec3 n) {
+/* How far an extent's points reach along n, from the centre. A point that turns about the vertical
+ * axis reaches farthest where its radius points as n does. */
+static float find_extents_reach(const struct gn_framing_fit *fit, const struct gn_extent *extent,
+                                const vec3 n) {
     float most = -INFINITY;
     const float aside = hypotf(n[0], n[2]);
-    for (uint32_t i = 0; i < fit->extent->count; i++) {
+    for (uint32_t i = 0; i < extent->count; i++) {
         vec3 p;
-        glm_vec3_sub(fit->extent->points[i], (float *)fit->centre_ws, p);
+        glm_vec3_sub(extent->points[i], (float *)fit->centre_ws, p);
         const float reach =
             fit->turns ? n[1] * p[1] + aside * hypotf(p[0], p[2]) : glm_vec3_dot((float *)n, p);
         most = fmaxf(most, reach);
     }
     return most;
+}
+
+static float find_clips_reach(const struct gn_framing_fit *fit, int clips, int over, const vec3 n) {
+    const struct gn_extent *extents = fit->pose->scene->extents;
+    const float reach = find_extents_reach(fit, &extents[clips - GN_POSE_NONE], n);
+    if (over < 0) return reach;
+    return fmaxf(reach, find_extents_reach(fit, &extents[over - GN_POSE_NONE], n));
+}
+
+/* Of a fade the mean: a point on the straight way between one within the one extent and one within
+ * the other is within that, too; and at both ends of the fade the camera goes on without a jump. */
+static float find_reach(const struct gn_framing_fit *fit, const vec3 n) {
+    const struct gn_pose *pose = fit->pose;
+    if (!pose) return find_extents_reach(fit, fit->extent, n);
+    const float reach = find_clips_reach(fit, pose->clips, pose->over, n);
+    if (pose->fade >= 1) return reach;
+    float before = 0;
+    for (int i = 0; i < GN_POSE_PARTS; i++)
+        if (pose->before[i].share > 0)
+            before += pose->before[i].share *
+                      find_clips_reach(fit, pose->before[i].clips, pose->before[i].over, n);
+    return pose->fade * reach + (1 - pose->fade) * before;
 }
 
 static float reach_between(const struct gn_framing_fit *fit, const vec3 axis, float sign,
@@ -110,8 +133,7 @@ static void place_camera(const struct gn_framing_opts *opts, struct gn_framing_f
     if (made) set_planes(fit, axes[2], framing->distance_m, framing->eye_ws, c);
 }
 
-/* Around what those clips move. */
-static void build_for(const struct gn_pose *pose, int clips, uint32_t camera,
+void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
                       const struct gn_framing_opts *opts, struct gn_framing *framing) {
     const struct gn_scene *scene = pose->scene;
     const bool made = is_made(scene, camera), placed = opts->given & GN_FRAMING_PLACE;
@@ -123,8 +145,7 @@ static void build_for(const struct gn_pose *pose, int clips, uint32_t camera,
     if (opts->given & GN_FRAMING_FOV && !c->orthographic) c->yfov_rad = opts->yfov_rad;
     if (c->aspect > aspect) c->yfov_rad = 2 * atanf(tanf(c->yfov_rad / 2) * c->aspect / aspect);
     if (!made && !placed) return;
-    struct gn_framing_fit fit = {
-        .extent = &scene->extents[clips - GN_POSE_NONE], .aspect = aspect, .turns = opts->turns};
+    struct gn_framing_fit fit = {.pose = pose, .aspect = aspect, .turns = opts->turns};
     vec3 axes[3];
     vec4 *view = framing->view_from_world;
     for (int row = 0; row < 3; row++)
@@ -138,28 +159,4 @@ static void build_for(const struct gn_pose *pose, int clips, uint32_t camera,
         for (int k = 0; k < 3; k++) view[k][row] = axes[row][k];
         view[3][row] = -glm_vec3_dot(axes[row], framing->eye_ws);
     }
-}
-
-/* From one framing to another, whose axes are the same. */
-static void mix_framings(const struct gn_framing *from, float share, struct gn_framing *framing) {
-    struct gn_camera *c = &framing->camera;
-    vec4 *view = framing->view_from_world;
-    glm_vec3_lerp((float *)from->eye_ws, framing->eye_ws, share, framing->eye_ws);
-    framing->distance_m = glm_lerp(from->distance_m, framing->distance_m, share);
-    c->near_m = fminf(from->camera.near_m, c->near_m);
-    c->far_m = fmaxf(from->camera.far_m, c->far_m);
-    for (int row = 0; row < 3; row++) {
-        const vec3 axis = {view[0][row], view[1][row], view[2][row]};
-        view[3][row] = -glm_vec3_dot((float *)axis, framing->eye_ws);
-    }
-}
-
-void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
-                      const struct gn_framing_opts *opts, struct gn_framing *framing) {
-    build_for(pose, pose->clips, camera, opts, framing);
-    if (pose->fade >= 1 || pose->faded_clips == pose->clips || !is_made(pose->scene, camera))
-        return;
-    struct gn_framing from = *framing;
-    build_for(pose, pose->faded_clips, camera, opts, &from);
-    mix_framings(&from, glm_smoothstep(0, 1, pose->fade), framing);
 }

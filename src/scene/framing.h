@@ -38,15 +38,17 @@ struct gn_framing {
 /* A file's camera stands where its node does. A picture narrower than its aspect keeps its
  * horizontal angle, others its vertical one: so all is shown that the camera's own picture shows. A
  * camera that the loader added keeps its direction; it goes as near as all of the scene stays in
- * the picture for all of the clips that the pose plays, and with `turns` from all sides. What is
- * given replaces what the camera has: it looks at the target, upright. */
+ * the picture for all of the clips that the pose plays, and with `turns` from all sides; while the
+ * pose fades it goes with it, from where it stood to where it will. What is given replaces what the
+ * camera has: it looks at the target, upright. */
 void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
                       const struct gn_framing_opts *opts, struct gn_framing *framing);
 
 /* The part that makes a place: the nearest from which all points of the extent are in the picture,
  * with a margin. axes: the camera's right, up and back. Sets eye_ws, and the camera's planes. */
 struct gn_framing_fit {
-    const struct gn_extent *extent;
+    const struct gn_extent *extent; /* or, of all that a pose plays: */
+    const struct gn_pose *pose;
     vec3 centre_ws; /* of the scene: the axis of `turns` goes through it */
     float aspect;
     bool turns;

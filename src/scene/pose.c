@@ -155,7 +155,6 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
     if (fades) gn_fade_keep(&memory->fade, pose, memory->local, &memory->deformer);
     if (fades) gn_values_keep(&memory->values, pose);
     pose->fade = fades ? 0 : 1;
-    pose->faded_clips = pose->clips;
     pose->clips = clips;
     pose->over = over;
     pose->over_ns = 0;

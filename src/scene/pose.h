@@ -31,6 +31,12 @@ struct gn_pose_run {
  * negative. */
 int64_t gn_pose_clip_ns(const struct gn_pose_run *run, int64_t length_ns, int64_t time_ns);
 
+enum { GN_POSE_PARTS = 4 };
+struct gn_pose_part { /* of what is shown: clips and over as in gn_pose */
+    int clips, over;
+    float share;
+};
+
 struct gn_exact;
 struct gn_pose {
     const struct gn_scene *scene;
@@ -41,8 +47,8 @@ struct gn_pose {
     int64_t begun_ns; /* the scene's time that is 0 for the clips */
     float fade; /* share of the chosen clips, against what gn_pose_choose_fading() kept; 1: they
                    alone */
-    int faded_clips; /* those that it fades from */
-    int variant;     /* number of the variant of materials; GN_POSE_DEFAULT: none */
+    struct gn_pose_part before[GN_POSE_PARTS]; /* what it kept, in shares of 1 in all; of a fade */
+    int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
     int64_t time_ns;
     mat4 *world_from_node;      /* scene->node_count */
     struct gn_exact *exact;     /* the same, before the origin is moved; NULL: floats are enough */

@@ -221,6 +221,31 @@ static void test_a_camera_that_flies_has_as_many_all_along(void **state) {
     }
 }
 
+/* The same flight as a clip that plays over others, in which the camera stands on high. */
+static void test_a_clip_over_others_flies_as_well(void **state) {
+    (void)state;
+    int differ = 0;
+    for (uint32_t width_px = 80; width_px <= 1280; width_px *= 2) {
+        uint32_t counts[2];
+        for (int i = 0; i < 2; i++) {
+            struct gn_plan_fixture f;
+            begin(&f, gn_field_scene_make_flown(30.0f), 4096);
+            f.opts.width_px = width_px;
+            f.opts.height_px = width_px * 9 / 16;
+            if (i == 1) {
+                f.scene->nodes[f.scene->cameras[0].node].translation[1] = 30.0f;
+                gn_pose_choose(&f.pose, GN_POSE_NONE);
+                differ += view_of(&f)->map.tile_count != counts[0];
+                gn_pose_choose_over(&f.pose, GN_POSE_NONE, 0);
+            }
+            counts[i] = view_of(&f)->map.tile_count;
+            gn_plan_end(&f);
+        }
+        assert_int_equal(counts[1], counts[0]);
+    }
+    assert_true(differ > 0);
+}
+
 /* Four leave the sundial's texels over two pixels, and hardly smaller than two do. */
 static void test_more_that_help_little_are_not_taken(void **state) {
     (void)state;
@@ -397,6 +422,7 @@ int main(void) {
         cmocka_unit_test(test_so_many_as_are_set),
         cmocka_unit_test(test_small_pictures_need_fewer),
         cmocka_unit_test(test_a_camera_that_flies_has_as_many_all_along),
+        cmocka_unit_test(test_a_clip_over_others_flies_as_well),
         cmocka_unit_test(test_more_that_help_little_are_not_taken),
         cmocka_unit_test(test_all_techniques_agree_on_it),
         cmocka_unit_test(test_a_larger_map_is_never_coarser),

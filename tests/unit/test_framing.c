@@ -81,6 +81,48 @@ static void test_a_clip_is_in_the_picture_at_all_its_times(void **state) {
     gn_scene_destroy(scene);
 }
 
+static float depth_of(const struct gn_pose *pose) {
+    const struct gn_framing_opts opts = {.aspect = 1};
+    struct gn_framing framing;
+    gn_framing_build(pose, 0, &opts, &framing);
+    return framing.eye_ws[2];
+}
+
+/* From a pose that stands to a clip that goes far and back: the camera goes as the fade does,
+ * without a jump at its ends nor where another choice breaks it off. */
+static void test_the_camera_fades_with_the_pose(void **state) {
+    (void)state;
+    const float times[] = {0, 1, 2}, moves[] = {0, 0, 0, 30, 12, 0, 0, 0, 0};
+    add_clip(add_box("{'mesh':1}"), "translation", 3, times, moves);
+    struct gn_scene *scene = load();
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, GN_POSE_NONE);
+    const float near_m = depth_of(&pose);
+    gn_pose_choose_fading(&pose, 0, -1);
+    assert_float_equal(depth_of(&pose), near_m, 1e-4);
+    float last_m = near_m;
+    for (int i = 1; i < 8; i++) {
+        pose.fade = (float)i / 8;
+        assert_true(depth_of(&pose) > last_m);
+        last_m = depth_of(&pose);
+    }
+    for (int i = 0; i < 20; i++) {
+        gn_pose_choose_fading(&pose, i % 2 ? 0 : GN_POSE_NONE, i % 3 ? -1 : 0);
+        assert_float_equal(depth_of(&pose), last_m, 1e-3);
+        pose.fade = .25f;
+        last_m = depth_of(&pose);
+    }
+    gn_pose_choose_over(&pose, GN_POSE_NONE, 0);
+    const float over_m = depth_of(&pose); /* as far as the clip over the others goes */
+    gn_pose_choose(&pose, 0);
+    assert_float_equal(over_m, depth_of(&pose), 1e-4);
+    assert_true(over_m > near_m + 1);
+    gn_pose_choose(&pose, GN_POSE_NONE);
+    assert_true(depth_of(&pose) == near_m);
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+}
+
 static void test_what_turns_between_keys_stays_in_the_picture(void **state) {
     (void)state;
     const float times[] = {0, 1, 2}, turns[] = {0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, -1};
@@ -274,6 +316,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_things_of_every_form_fill_pictures_of_every_form, setup),
         cmocka_unit_test_setup(test_a_clip_is_in_the_picture_at_all_its_times, setup),
+        cmocka_unit_test_setup(test_the_camera_fades_with_the_pose, setup),
         cmocka_unit_test_setup(test_what_turns_between_keys_stays_in_the_picture, setup),
         cmocka_unit_test_setup(test_clips_of_two_lengths_meet_in_the_picture, setup),
         cmocka_unit_test_setup(test_round_things_do_not_touch_the_border, setup),

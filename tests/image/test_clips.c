@@ -1,0 +1,171 @@
+/* Animation clips in a kiosk: nothing is drawn while they stand, no change of them jumps, and a
+ * mode may start them anew. */
+#include "unit/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/clock.h"
+#include "kiosk/private.h"
+#include "options/args.h"
+#include "unit/gl_help.h"
+
+#define PATIENCE_NS (60 * GN_NS_PER_S) /* of the processor */
+
+/* A kiosk of that configuration; its scene is the default one, with the clips hoop and gull. */
+static struct gn_show *open_show(const char *ini) {
+    static struct gn_warnings warnings;
+    static char path[300];
+    struct gn_options options;
+    struct gn_err err = {0};
+    struct gn_display display;
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    const char *folder = help_folder();
+    help_write(folder, "x/kiosk.ini", ini);
+    snprintf(path, sizeof path, "%s/x/kiosk.ini", folder);
+    const char *const argv[] = {"gnomon", "show",  "--backend", "egl",
+                                "--size", "64x64", "-c",        path};
+    setenv("XDG_CONFIG_HOME", "/nowhere", 1);
+    if (!gn_args_parse(&options, sizeof argv / sizeof *argv, (char *const *)(uintptr_t)argv,
+                       &warnings, &err))
+        fail_msg("%s", err.text);
+    struct gn_show *show = gn_show_open(&options, &warnings, &err);
+    gn_options_finish(&options);
+    if (!show) fail_msg("%s", err.text);
+    help_remove(folder);
+    return show;
+}
+
+static void step(struct gn_show *show) {
+    struct gn_err err = {0};
+    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+}
+
+static void draw_frame(struct gn_show *show) {
+    const uint64_t before = show->counts.frames;
+    const int64_t begun_ns = gn_clock_process_cpu_ns();
+    while (show->counts.frames == before) {
+        step(show);
+        assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
+    }
+}
+
+static void until_warm(struct gn_show *show) {
+    const int64_t begun_ns = gn_clock_process_cpu_ns();
+    do {
+        step(show);
+        assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
+    } while (show->counts.frames == 0 || gn_show_has_work(show));
+}
+
+/* Until no frame is wanted any more. */
+static void until_still(struct gn_show *show) {
+    const int64_t begun_ns = gn_clock_process_cpu_ns();
+    until_warm(show);
+    while (show->kiosk.caption || gn_show_wants_frame(show)) {
+        step(show);
+        assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
+    }
+}
+
+static void act(struct gn_show *show, enum gn_action_kind kind, const char *name) {
+    gn_show_act(show, &(struct gn_action){.kind = kind, .name = name}, gn_clock_monotonic_ns());
+}
+
+/* The sum of where nodes are: it differs between two poses. */
+static double pose_sum(const struct gn_show *show) {
+    double sum = 0;
+    for (uint32_t i = 0; i < show->stage.scene->node_count; i++)
+        for (int k = 0; k < 12; k++)
+            sum += fabs((double)show->stage.pose.world_from_node[i][k / 3][k % 3]) * (1 + k);
+    return sum;
+}
+
+static void clips_that_stand_draw_nothing(void **state) {
+    (void)state;
+    static const char *const inis[] = {"[scene]\nanimation_loop = once\ntime = 1000\n",
+                                       "[scene]\nanimation_speed = 0\nanimation_start = 2\n"};
+    for (int i = 0; i < 2; i++) {
+        char ini[200];
+        snprintf(ini, sizeof ini, "%s[mode \"A\"]\nshadow = pcf\n[kiosk]\ncaptions = no\n",
+                 inis[i]);
+        struct gn_show *show = open_show(ini);
+        until_still(show);
+        act(show, GN_ACTION_PLAY, "gull");
+        assert_true(gn_show_wants_frame(show));
+        draw_frame(show);
+        show->kiosk.play.time_ns = show->kiosk.play.length_ns; /* it ends */
+        until_still(show);
+        assert_int_equal(show->stage.pose.over, -1);
+        gn_show_close(show);
+    }
+}
+
+static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
+    (void)state;
+    struct gn_show *show = open_show("[scene]\ntime = 3\n[mode \"A\"]\nshadow = pcf\n"
+                                     "[mode \"B\"]\nshadow = pcf\nanimation_speed = .6\n"
+                                     "[kiosk]\ncaptions = no\nclip_fade = 5\n");
+    until_warm(show);
+    draw_frame(show);
+    assert_true(show->stage.pose.fade == 1);
+    double before = pose_sum(show);
+    act(show, GN_ACTION_NEXT, NULL);
+    while (show->drawn.mode != 1) draw_frame(show);
+    assert_true(show->stage.pose.fade < 1);
+    assert_float_equal(pose_sum(show), before, 1e-2 * before);
+    act(show, GN_ACTION_PLAY, "gull");
+    draw_frame(show);
+    show->clips.begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
+    show->kiosk.play.time_ns = GN_NS_PER_S;
+    draw_frame(show);
+    draw_frame(show);
+    assert_true(show->stage.pose.fade == 1 && show->stage.pose.over >= 0);
+    before = pose_sum(show);
+    act(show, GN_ACTION_PLAY, "gull");
+    draw_frame(show);
+    assert_true(show->stage.pose.fade < 1);
+    assert_float_equal(pose_sum(show), before, 1e-2 * before);
+    gn_show_close(show);
+}
+
+static int64_t clip_ns(const struct gn_show *show) {
+    return gn_pose_clip_ns(&show->stage.pose.run, INT64_MAX, show->stage.pose.time_ns);
+}
+
+static void a_mode_that_restarts_begins_its_clips(void **state) {
+    (void)state;
+    struct gn_show *show = open_show("[mode \"A\"]\nshadow = pcf\n"
+                                     "[mode \"B\"]\nshadow = pcf\nanimation_restart = yes\n"
+                                     "animation_loop = once\nanimation_start = 1\n"
+                                     "[kiosk]\ncaptions = no\nclip_fade = 0\n");
+    until_warm(show);
+    show->kiosk.scene_ns += 1000 * GN_NS_PER_S;
+    act(show, GN_ACTION_NEXT, NULL);
+    while (show->drawn.mode != 1) draw_frame(show);
+    const int64_t first_ns = clip_ns(show);
+    assert_true(first_ns >= GN_NS_PER_S && first_ns < 3 * GN_NS_PER_S);
+    show->kiosk.scene_ns += 1000 * GN_NS_PER_S; /* its end */
+    until_still(show);
+    act(show, GN_ACTION_MODE, "B");
+    assert_true(gn_show_wants_frame(show));
+    draw_frame(show);
+    assert_true(clip_ns(show) < 3 * GN_NS_PER_S);
+    act(show, GN_ACTION_PREV, NULL);
+    while (show->drawn.mode != 0) draw_frame(show);
+    assert_true(clip_ns(show) > 1999 * GN_NS_PER_S);
+    gn_show_close(show);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(clips_that_stand_draw_nothing),
+        cmocka_unit_test(the_same_clip_anew_or_at_another_speed_fades),
+        cmocka_unit_test(a_mode_that_restarts_begins_its_clips),
+    };
+    return RUN(tests);
+}
