@@ -107,11 +107,22 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
     struct gn_light_note *note = &frame->notes.lights.at[light];
     if (!gn_cascade_can(&scene->lights[light], &frame->eye, opts)) return 1;
 
+    struct views v = {.frame = frame, .opts = frame_opts, .now = pose, .count = 1};
+    const uint32_t from = frame_opts->view.light_plus_1;
+    v.moves = pose->node_moves[from ? scene->lights[from - 1].node
+                                    : scene->cameras[frame_opts->view.camera].node];
+    v.moves |= !from && pose->cameras != scene->cameras; /* it zooms, too */
+
     /* What the choice depends on, except the camera's position. The technique is not part of it:
      * modes agree on the number, whichever comes first. */
-    const uint32_t by[] = {opts->map_px,          opts->all_receive,       opts->cascades,
-                           frame->camera,         frame->picture.width_px, frame->picture.height_px,
-                           (uint32_t)pose->clips, (uint32_t)pose->over};
+    const uint32_t by[] = {opts->map_px,
+                           opts->all_receive,
+                           opts->cascades,
+                           frame->camera,
+                           frame->picture.width_px,
+                           frame->picture.height_px,
+                           (uint32_t)pose->clips,
+                           (uint32_t)(v.moves ? pose->over : -1)};
     const uint64_t choice = gn_hash(GN_HASH_INIT, by, sizeof by);
     for (struct gn_cascade_choice *c = note->cascades; c < note->cascades + GN_CASCADE_CHOICES; c++)
         if (c->count > 0 && c->choice == choice) {
@@ -119,11 +130,6 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
             return c->count;
         }
 
-    struct views v = {.frame = frame, .opts = frame_opts, .now = pose, .count = 1};
-    const uint32_t from = frame_opts->view.light_plus_1;
-    v.moves = pose->node_moves[from ? scene->lights[from - 1].node
-                                    : scene->cameras[frame_opts->view.camera].node];
-    v.moves |= !from && pose->cameras != scene->cameras; /* it zooms, too */
     for (uint32_t i = 0; i < scene->animation.clip_count && v.moves; i++)
         if (scene->animation.clips[i].duration_ns > v.lasts_ns)
             v.lasts_ns = scene->animation.clips[i].duration_ns;
