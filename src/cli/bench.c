@@ -127,7 +127,7 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
     run->ms_median = gn_bench_quantile(e->ms, run->frames, .5);
     run->ms_p95 = gn_bench_quantile(e->ms, run->frames, .95);
     run->cpu_ms = (double)e->cpu_ns / MS_NS / run->frames;
-    run->idle = !b->stage.pose.animated && b->settings->scene.turntable_deg_s == 0 &&
+    run->idle = gn_pose_stands(&b->stage.pose) && b->settings->scene.turntable_deg_s == 0 &&
                 !b->move.lights && !b->move.casters;
     if (e->allocations > 0)
         gn_warn(b->warnings, "%s: timed frames asked for memory or GL objects %llu times",

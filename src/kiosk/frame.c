@@ -20,7 +20,8 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     const struct gn_kiosk_view *drawn = &s->drawn;
     const bool differs =
         view.dark != drawn->dark || view.mode != drawn->mode || view.scene != drawn->scene ||
-        view.camera != drawn->camera || view.clip != drawn->clip || view.info != drawn->info ||
+        view.camera != drawn->camera || view.clip != drawn->clip ||
+        view.clips_begun_ns != drawn->clips_begun_ns || view.info != drawn->info ||
         view.old > 0.0f || drawn->old > 0.0f || view.caption != drawn->caption ||
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));

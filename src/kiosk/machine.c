@@ -47,6 +47,14 @@ static void pass_until(struct gn_kiosk *s, int64_t time_ns) {
     s->seen_ns = time_ns;
 }
 
+/* The clips of the shown mode begin, or go with the scene's time. */
+static void enter_clips(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t time_ns) {
+    const bool restarts = rules->restarts >> s->shown.mode & 1;
+    if (restarts) pass_until(s, time_ns);
+    s->clips_begun_ns = restarts ? s->scene_ns : 0;
+    s->play = (struct gn_kiosk_play){0};
+}
+
 /* ---- what is wanted ---- */
 
 /* The next mode that has not failed; if all have, the same one. */
@@ -102,6 +110,7 @@ static void act_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
         s->bad_modes &= ~(1u << e->mode); /* requested by name: try again */
         if (own > 0) s->bad_scenes &= ~(UINT64_C(1) << (own - 1));
         s->wanted.mode = e->mode;
+        if (rules->restarts >> e->mode & 1 && !gn_kiosk_waits(s)) enter_clips(rules, s, e->time_ns);
     }
     set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
 }
@@ -224,10 +233,7 @@ static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     if (e->scene != before || (enters && rules->own_camera >> e->mode & 1)) s->camera = 0;
     s->fade_begun_ns = rules->fade_ns > 0 ? e->time_ns : 0;
     s->shown = s->wanted;
-    const bool restarts = rules->restarts >> e->mode & 1;
-    if (restarts) pass_until(s, e->time_ns);
-    s->clips_begun_ns = restarts ? s->scene_ns : 0;
-    s->play = (struct gn_kiosk_play){0};
+    enter_clips(rules, s, e->time_ns);
 }
 
 static void give_up_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,

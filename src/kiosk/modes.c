@@ -118,8 +118,10 @@ static bool clips_jump(const struct gn_pose *pose, const struct gn_stage_look *l
                        const struct gn_kiosk_view *view) {
     const bool replays = over >= 0 && view->clip_ns < pose->over_ns;
     return look->clips != pose->clips || over != pose->over || replays ||
-           look->run.turns != pose->run.turns || look->run.speed_less_1 != pose->run.speed_less_1 ||
-           look->run.start_ns != pose->run.start_ns || view->clips_begun_ns != pose->begun_ns;
+           (pose->animated &&
+            (look->run.turns != pose->run.turns ||
+             look->run.speed_less_1 != pose->run.speed_less_1 ||
+             look->run.start_ns != pose->run.start_ns || view->clips_begun_ns != pose->begun_ns));
 }
 
 /* From what is shown to what these clips make of it, in [kiosk] clip_fade. */

@@ -89,6 +89,10 @@ static void follow(struct gn_show *s) {
     now.width_px = f->width_px;
     now.height_px = f->height_px;
     now.mode = s->kiosk.shown.mode;
+    now.turns = s->stage.pose.run.turns;
+    now.speed_less_1 = s->stage.pose.run.speed_less_1;
+    now.start_ns = s->stage.pose.run.start_ns;
+    now.begun_ns = s->stage.pose.begun_ns;
     now.clips = s->stage.pose.clips;
     now.over = s->stage.pose.over;
     now.over_ns = s->stage.pose.over_ns;

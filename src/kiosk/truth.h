@@ -23,6 +23,9 @@ struct gn_show_truth { /* zeroed: off */
         uint32_t width_px, height_px;
         int mode, clips, over, variant;
         float fade;
+        int turns; /* these of gn_pose_run */
+        double speed_less_1;
+        int64_t start_ns, begun_ns;
     } of;               /* what is cast */
     int64_t changed_ns; /* since then it is the same */
     int percent;        /* that the caption tells */

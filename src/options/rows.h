@@ -19,7 +19,7 @@ GN_OPTION(.name = "animation-speed", .section = "scene", .kind = GN_KIND_NUMBER,
 GN_OPTION(.name = "animation-start", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "time within each clip at which it begins, whatever its speed", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_start_ns))
 GN_OPTION(.name = "animation-restart", .section = "scene", .kind = GN_KIND_FLAG,
-          .help = "clips begin where the mode is entered, or a scene in it, not with the program", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_restart))
+          .help = "clips begin anew whenever the mode is entered, or a scene in it, or the mode named while it is shown", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_restart))
 GN_OPTION(.name = "variant", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|auto",
           .help = "variant of the scene's materials (KHR_materials_variants); auto: as the file has them without one", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.variant))
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",

@@ -65,7 +65,7 @@ static void until_warm(struct gn_show *show) {
 static void until_still(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     until_warm(show);
-    while (show->kiosk.caption || gn_show_wants_frame(show)) {
+    while (!show->stage.display.screen.may_draw || gn_show_wants_frame(show)) {
         step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
     }
@@ -119,7 +119,7 @@ static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
     assert_float_equal(pose_sum(show), before, 1e-2 * before);
     act(show, GN_ACTION_PLAY, "gull");
     draw_frame(show);
-    show->clips.begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
+    show->clips_begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
     show->kiosk.play.time_ns = GN_NS_PER_S;
     draw_frame(show);
     draw_frame(show);
@@ -133,7 +133,8 @@ static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
 }
 
 static int64_t clip_ns(const struct gn_show *show) {
-    return gn_pose_clip_ns(&show->stage.pose.run, INT64_MAX, show->stage.pose.time_ns);
+    return gn_pose_clip_ns(&show->stage.pose.run, INT64_MAX,
+                           show->stage.pose.time_ns - show->stage.pose.begun_ns);
 }
 
 static void a_mode_that_restarts_begins_its_clips(void **state) {

@@ -186,6 +186,24 @@ static void a_mode_may_begin_its_clips_anew(void **state) {
     assert_true(view.stands && view.time_ns == view.clips_begun_ns);
 }
 
+/* Its button starts the story again; that of another mode does not. */
+static void a_mode_that_is_named_again_begins_its_clips(void **state) {
+    (void)state;
+    struct gn_kiosk_rules r = three;
+    r.restarts = 1u << 1;
+    struct gn_kiosk_event again = {
+        .kind = GN_KIOSK_ACTION, .time_ns = 3600 * S, .action = GN_ACTION_MODE, .mode = 1};
+    struct gn_kiosk s = on(&r, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 10 * S);
+    s = ready(&r, act(&r, s, 13 * S, GN_ACTION_NEXT), 15 * S, 1, 0);
+    s = gn_kiosk_step(&r, &s, &again); /* after an hour without a frame */
+    struct gn_kiosk_view view = gn_kiosk_view(&r, &s, 3601 * S);
+    assert_int_equal(view.time_ns - view.clips_begun_ns, S);
+    s = ready(&r, act(&r, s, 3610 * S, GN_ACTION_NEXT), 3610 * S, 2, 0);
+    again.mode = 2;
+    s = gn_kiosk_step(&r, &s, &again);
+    assert_int_equal(gn_kiosk_view(&r, &s, 3611 * S).clips_begun_ns, 0);
+}
+
 static void another_mode_ends_a_clip_and_a_pause_holds_it(void **state) {
     (void)state;
     struct gn_kiosk s = on(&three, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 10 * S);
@@ -455,6 +473,7 @@ int main(void) {
         cmocka_unit_test(a_clip_begins_at_its_start_after_a_still_hour),
         cmocka_unit_test(a_press_begins_the_clip_anew_or_is_ignored),
         cmocka_unit_test(a_mode_may_begin_its_clips_anew),
+        cmocka_unit_test(a_mode_that_is_named_again_begins_its_clips),
         cmocka_unit_test(another_mode_ends_a_clip_and_a_pause_holds_it),
         cmocka_unit_test(the_idle_timeout_begins_at_the_end_of_a_clip),
         cmocka_unit_test(blank_swallows_the_first_action),
