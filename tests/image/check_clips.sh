@@ -82,6 +82,12 @@ sleep 1
 stands 'clips that began anew once more'
 again=$(($(frames) - before))
 [ "$again" -gt $((passed + 20)) ] || complain "once more $again frames, of clips that ended $passed"
+before=$(frames)
+ctl mode Anew
+sleep 1
+stands 'clips that began anew where their mode was shown'
+named=$(($(frames) - before))
+[ "$named" -gt $((passed + 20)) ] || complain "named again $named frames, of clips that ended $passed"
 ctl mode Loop
 moves 'clips in a loop'
 ctl set animation_speed 0
@@ -91,5 +97,5 @@ moves 'clips that go on'
 ctl quit
 wait "$kiosk" || complain "status $?"
 kiosk=''
-echo "frames: $passed of modes whose clips stand, $anew and $again of clips begun anew"
+echo "frames: $passed of modes whose clips stand, $anew, $again and $named of clips begun anew"
 exit $bad
