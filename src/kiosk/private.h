@@ -106,14 +106,14 @@ struct gn_show_reload {
 
 /* What is wrong, one text of each kind: each ends by itself when it is cured. */
 enum gn_problem {
-    GN_PROBLEM_START,   /* of this start, for good */
-    GN_PROBLEM_CONFIG,  /* until a reload succeeds */
-    GN_PROBLEM_ACTION,  /* an action's mode or clip is not there; until another one's is */
-    GN_PROBLEM_MODE,    /* until that mode is shown, or a reload */
-    GN_PROBLEM_SCENE,   /* likewise */
-    GN_PROBLEM_WATCH,   /* changes of files are not noticed */
-    GN_PROBLEM_SHADERS, /* of --shaders; until they can be used */
-    GN_PROBLEM_STATE,   /* until it is saved */
+    GN_PROBLEM_START,      /* of this start, for good */
+    GN_PROBLEM_CONFIG,     /* until a reload succeeds */
+    GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is */
+    GN_PROBLEM_MODE,       /* until that mode is shown, or a reload */
+    GN_PROBLEM_SCENE,      /* likewise */
+    GN_PROBLEM_WATCH,      /* changes of files are not noticed */
+    GN_PROBLEM_SHADERS,    /* of --shaders; until they can be used */
+    GN_PROBLEM_STATE,      /* until it is saved */
     GN_PROBLEM_TELEVISION, /* until it answers */
     GN_PROBLEM_COUNT,
 };

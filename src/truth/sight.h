@@ -31,8 +31,8 @@ struct gn_truth {
 struct gn_truth_opts {       /* zero means the default */
     int width_px, height_px; /* 640 x 480 */
     uint32_t camera, light;
-    int threads;   /* 2 */
-    bool no_cache; /* of what keeps it in a file */
+    int threads;                /* 2 */
+    bool no_cache;              /* of what keeps it in a file */
     const struct gn_pose *pose; /* NULL: at time 0, with the clips that are on by default. For
                                    gn_truth_make() and gn_truth_cast() only */
 };
