@@ -3,6 +3,26 @@
 
 #include <string.h>
 
+/* Spherical interpolation of quaternions of any length, along the shorter way; in doubles, since a
+ * cosine of floats is 1 for all angles under 3e-4. */
+static void turn(const float *from, const float *to, double share, float *out) {
+    double dot = 0, from_2 = 0, to_2 = 0;
+    for (int i = 0; i < 4; i++) {
+        dot += (double)from[i] * (double)to[i];
+        from_2 += (double)from[i] * (double)from[i];
+        to_2 += (double)to[i] * (double)to[i];
+    }
+    const double from_scale = from_2 > 0 ? 1 / sqrt(from_2) : 1,
+                 to_scale = to_2 > 0 ? 1 / sqrt(to_2) : 1;
+    const double cosine = fmin(fabs(dot) * from_scale * to_scale, 1), angle = acos(cosine);
+    const double sine = sin(angle), side = dot < 0 ? -1 : 1;
+    const double of_from = sine > 1e-6 ? sin((1 - share) * angle) / sine : 1 - share,
+                 of_to = sine > 1e-6 ? sin(share * angle) / sine : share;
+    for (int i = 0; i < 4; i++)
+        out[i] = (float)(of_from * from_scale * (double)from[i] +
+                         side * of_to * to_scale * (double)to[i]);
+}
+
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out) {
     const int n = (int)channel->components;
     const bool rotates = channel->path == GN_ANIM_ROTATION;
@@ -29,14 +49,7 @@ void gn_channel_sample(const struct gn_channel *channel, double time_s, float *o
             out[i] = (2 * u3 - 3 * u2 + 1) * a[n + i] + dt * (u3 - 2 * u2 + u) * a[2 * n + i] +
                      (3 * u2 - 2 * u3) * b[n + i] + dt * (u3 - u2) * b[i];
         for (int i = 0; !cubic && !rotates && i < n; i++) out[i] = a[i] + (b[i] - a[i]) * u;
-        if (!cubic && rotates) {
-            versor from, to;
-            memcpy(from, a, sizeof from);
-            memcpy(to, b, sizeof to);
-            glm_quat_normalize(from);
-            glm_quat_normalize(to);
-            glm_quat_slerp(from, to, u, out);
-        }
+        if (!cubic && rotates) turn(a, b, (time_s - start_s) / dt_s, out);
     }
     if (rotates) glm_quat_normalize(out);
 }
