@@ -264,29 +264,31 @@ static void add_rows(const struct gn_pose *pose, uint32_t index, uint32_t vertex
                 rows[r][c] = (double)pose->items[index].world_from_item[c][r];
 }
 
-void gn_pose_vertex(const struct gn_pose *pose, uint32_t index, uint32_t vertex, double out[3]) {
-    const struct gn_item *item = &pose->scene->items[index];
-    const float *from = pose->scene->buffers.positions + 3 * (size_t)vertex;
-    double p[3] = {(double)from[0], (double)from[1], (double)from[2]}, rows[3][4] = {{0}};
-    if (item->morph >= 0) add_deltas(pose, item, 0, vertex, p);
-    add_rows(pose, index, vertex, rows);
-    for (int r = 0; r < 3; r++)
-        out[r] = rows[r][0] * p[0] + rows[r][1] * p[1] + rows[r][2] * p[2] + rows[r][3];
-}
-
 /* By the rows of the cofactor matrix, as normal_ws() of shaders_es/lib/vertex.glsl. */
-void gn_pose_normal(const struct gn_pose *pose, uint32_t index, uint32_t vertex, double out[3]) {
-    const struct gn_item *item = &pose->scene->items[index];
-    const float *from = pose->scene->buffers.normals + 3 * (size_t)vertex;
-    double n[3] = {(double)from[0], (double)from[1], (double)from[2]}, rows[3][4] = {{0}};
-    if (item->morph >= 0) add_deltas(pose, item, 1, vertex, n);
-    add_rows(pose, index, vertex, rows);
+static void turn_normal(double rows[3][4], const double n[3], double out[3]) {
     for (int r = 0; r < 3; r++) {
         const double *u = rows[(r + 1) % 3], *v = rows[(r + 2) % 3];
         out[r] = 0;
         for (int k = 0; k < 3; k++)
             out[r] += n[k] * (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]);
     }
+}
+
+void gn_pose_vertex(const struct gn_pose *pose, uint32_t index, uint32_t vertex, double out[3],
+                    double normal[3]) {
+    const struct gn_item *item = &pose->scene->items[index];
+    const struct gn_scene_buffers *b = &pose->scene->buffers;
+    double p[3], n[3], rows[3][4] = {{0}};
+    for (int k = 0; k < 3; k++) {
+        p[k] = (double)b->positions[3 * (size_t)vertex + k];
+        n[k] = (double)b->normals[3 * (size_t)vertex + k];
+    }
+    if (item->morph >= 0) add_deltas(pose, item, 0, vertex, p);
+    if (item->morph >= 0 && normal) add_deltas(pose, item, 1, vertex, n);
+    add_rows(pose, index, vertex, rows);
+    for (int r = 0; r < 3; r++)
+        out[r] = rows[r][0] * p[0] + rows[r][1] * p[1] + rows[r][2] * p[2] + rows[r][3];
+    if (normal) turn_normal(rows, n, normal);
 }
 
 void gn_pose_corner(const struct gn_pose *pose, uint32_t index, uint32_t vertex, vec3 out) {
@@ -296,7 +298,7 @@ void gn_pose_corner(const struct gn_pose *pose, uint32_t index, uint32_t vertex,
         return;
     }
     double p[3];
-    gn_pose_vertex(pose, index, vertex, p);
+    gn_pose_vertex(pose, index, vertex, p, NULL);
     for (int k = 0; k < 3; k++) out[k] = (float)p[k];
 }
 

@@ -103,11 +103,11 @@ void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
  * returns zero for lengths under 1.2e-7. */
 void gn_unit(vec3 v);
 
-/* Where a vertex of an item is, world space: mesh space for gn_scene_buffers.positions. The second
- * computes in floats, as a GPU would, where nothing is deformed. */
-void gn_pose_vertex(const struct gn_pose *pose, uint32_t item, uint32_t vertex, double out[3]);
-/* Its normal, of any length. */
-void gn_pose_normal(const struct gn_pose *pose, uint32_t item, uint32_t vertex, double out[3]);
+/* Where a vertex of an item is, world space: mesh space for gn_scene_buffers.positions; its normal,
+ * of any length, unless that is NULL. The second computes in floats, as a GPU would, where nothing
+ * is deformed. */
+void gn_pose_vertex(const struct gn_pose *pose, uint32_t item, uint32_t vertex, double out[3],
+                    double normal[3]);
 void gn_pose_corner(const struct gn_pose *pose, uint32_t item, uint32_t vertex, vec3 out);
 /* Exact, where gn_pose_item.box_ws may be larger. */
 struct gn_box gn_pose_tight_box(const struct gn_pose *pose, uint32_t item);

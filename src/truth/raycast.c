@@ -80,7 +80,7 @@ void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene
             for (int c = 0; c < 3; c++) {
                 const uint32_t vertex = scene->buffers.indices[t->index + c];
                 if (gn_item_is_deformed(&scene->items[i]))
-                    gn_pose_vertex(pose, i, vertex, t->p[c]);
+                    gn_pose_vertex(pose, i, vertex, t->p[c], NULL);
                 else
                     place(posed->world_from_item, &scene->buffers.positions[3 * (size_t)vertex],
                           t->p[c]);

@@ -127,7 +127,7 @@ static void check_places(const char *nodes, double scale, const double offset[3]
     size_t found = 0;
     for (uint32_t v = 0; v < scene->buffers.vertex_count; v++) {
         double world[3];
-        gn_pose_vertex(&pose, 0, v, world);
+        gn_pose_vertex(&pose, 0, v, world, NULL);
         const double x = (world[0] - offset[0]) / scale, z = (world[2] - offset[2]) / scale,
                      column = (x - (double)LEAST_X) * SIDE / (double)WIDTH,
                      row = z * SIDE / (double)WIDTH;

@@ -49,7 +49,7 @@ static uint32_t vertex_at(uint32_t item, float x, float z) {
 
 static void assert_posed(uint32_t item, float x, float z, double px, double py, double pz) {
     double p[3];
-    gn_pose_vertex(&pose, item, vertex_at(item, x, z), p);
+    gn_pose_vertex(&pose, item, vertex_at(item, x, z), p, NULL);
     if (fabs(p[0] - px) > 1e-5 || fabs(p[1] - py) > 1e-5 || fabs(p[2] - pz) > 1e-5)
         fail_msg("(%g %g %g), not (%g %g %g)", p[0], p[1], p[2], px, py, pz);
 }
@@ -98,7 +98,7 @@ static void test_a_vertex_lies_between_its_joints(void **state) {
     set_in("nodes", 2, "translation", "[2,4,0]");
     open_scene(GN_POSE_NONE);
     double p[3];
-    gn_pose_vertex(&pose, 0, vertex_at(0, 1, 1), p);
+    gn_pose_vertex(&pose, 0, vertex_at(0, 1, 1), p, NULL);
     assert_true(fabs(p[1] - 1) < 1e-4); /* a quarter of 4 */
 }
 
@@ -118,7 +118,7 @@ static void test_weights_that_are_none(void **state) {
     open_scene(GN_POSE_NONE);
     for (int i = 0; i < 4; i++) { /* the first joint of the first, joint 1 of all others */
         double p[3];
-        gn_pose_vertex(&pose, 0, vertex_at(0, i & 1 ? 1 : -1, i & 2 ? 1 : -1), p);
+        gn_pose_vertex(&pose, 0, vertex_at(0, i & 1 ? 1 : -1, i & 2 ? 1 : -1), p, NULL);
         assert_true(fabs(p[1] - 4) < 1e-4);
     }
 }
@@ -153,7 +153,7 @@ static void test_bounds_hold_all_vertices(void **state) {
         const struct gn_box *box = &pose.items[0].box_ws;
         for (uint32_t v = 0; v < scene->geometries[0].vertex_count; v++) {
             double p[3];
-            gn_pose_vertex(&pose, 0, scene->geometries[0].first_vertex + v, p);
+            gn_pose_vertex(&pose, 0, scene->geometries[0].first_vertex + v, p, NULL);
             for (int k = 0; k < 3; k++)
                 assert_true(p[k] > (double)box->min[k] - 1e-5 && p[k] < (double)box->max[k] + 1e-5);
         }
@@ -219,7 +219,7 @@ static void test_sixteen_bit_joints_of_the_second_four(void **state) {
     assert_int_equal(scene->buffers.weights1[0], 32768); /* half, and what is left of 65535: */
     assert_int_equal(scene->buffers.weights0[0], 32767);
     double p[3];
-    gn_pose_vertex(&pose, 0, vertex_at(0, -1, 1), p);
+    gn_pose_vertex(&pose, 0, vertex_at(0, -1, 1), p, NULL);
     assert_true(fabs(p[1] - 2) < 1e-3);
 }
 
@@ -349,7 +349,7 @@ static void test_a_skinned_mesh_far_off_in_its_own_coordinates(void **state) {
     open_scene(GN_POSE_NONE);
     for (uint32_t v = 0; v < 4; v++) {
         double at[3];
-        gn_pose_vertex(&pose, 0, scene->geometries[0].first_vertex + v, at);
+        gn_pose_vertex(&pose, 0, scene->geometries[0].first_vertex + v, at, NULL);
         assert_true(fabs(fabs(at[0]) - 1) < .01 && fabs(fabs(at[2]) - 1) < .01);
     }
     assert_true(scene->box.max[0] < 1.1f);
