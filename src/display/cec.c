@@ -248,11 +248,11 @@ static bool says_not_on(const struct gn_cec_opts *o, const struct gn_cec_report 
 }
 
 /* Some in standby take their physical address away and still listen. The kernel sends them this
- * one message, where the adapter can (CEC_CAP_NEEDS_HPD in its documentation). */
+ * one message, unless the adapter cannot (CEC_CAP_NEEDS_HPD): then it refuses. */
 static void wake_unplugged(const struct gn_cec_opts *o, const struct gn_cec_report *r) {
     struct gn_cec_report unused = *r;
     uint8_t own;
-    if (!claim_address(o, &unused, &own) || r->adapter.caps & CEC_CAP_NEEDS_HPD) return;
+    if (!claim_address(o, &unused, &own)) return;
     send_opcode(o, &unused, CEC_LOG_ADDR_UNREGISTERED, CEC_MSG_IMAGE_VIEW_ON);
 }
 

@@ -169,6 +169,7 @@ static void the_adapter_is_that_of_the_connector(void **state) {
         {"HDMI-A-2", NULL, "/dev/cec1", {0x1000, 0x1000, 0x1000}, false},
         {"HDMI-A-2", NULL, "/dev/cec1", {0x1000, CEC_FAKE_NONE, 0x1000}, false},
         {"HDMI-A-2", "/dev/cec0", "/dev/cec0", {0x1000, 0x1000, 0x1000}, false},
+        {"HDMI-A-2", NULL, "/dev/cec1", {CEC_FAKE_NONE, CEC_FAKE_NONE, 0x2000}, false},
         {"DP-1", NULL, "", {0x1000, 0x1000, 0x1000}, false},
         {"HDMI-A-2", NULL, "/dev/cec0", {0x1000, 0x1000, 0x1000}, true},
         {"HDMI-A-2", NULL, "/dev/cec1", {CEC_FAKE_NONE, 0x1000, 0x1000}, true},
@@ -178,6 +179,8 @@ static void the_adapter_is_that_of_the_connector(void **state) {
                                          drm};
         struct gn_cec_report r;
         for (int k = 0; k < 3; k++) fake->adapters[k].address = cases[i].addresses[k];
+        /* a stick at USB, say: it does not know its connector */
+        fake->adapters[2].connector = cases[i].addresses[2] == 0x2000 ? 0 : 32;
         for (unsigned k = 1; k <= 2 && cases[i].bare; k++) {
             snprintf(path, sizeof path, "%s/card1-HDMI-A-%u/connector_id", drm, k);
             unlink(path);

@@ -111,6 +111,46 @@ static void what_was_wanted_last_holds(void **state) {
     close_television(t, fake);
 }
 
+static void a_change_in_the_middle_of_an_attempt_follows_it(void **state) {
+    (void)state;
+    struct cec_fake *fake = cec_fake_new();
+    struct gn_television *t = open_television(fake);
+    struct gn_television_state s;
+    gn_television_set(t, false, NULL);
+    WAIT(t, &s, s.told == GN_TELEVISION_STANDBY);
+    cec_fake_lock();
+    fake->delay_us = 100000;
+    cec_fake_unlock();
+    gn_television_set(t, true, NULL);
+    while (cec_fake_count(fake, "40:04") == 0) usleep(1000);
+    gn_television_set(t, false, NULL);
+    WAIT(t, &s, s.attempts == 3);
+    assert_int_equal(s.told, GN_TELEVISION_STANDBY);
+    assert_int_equal(cec_fake_count(fake, "40:36"), 2);
+    close_television(t, fake);
+}
+
+/* The thread may see the change, or not: but no standby follows another. */
+static void what_is_taken_back_before_it_is_told_is_not_told(void **state) {
+    (void)state;
+    struct cec_fake *fake = cec_fake_new();
+    struct gn_television *t = open_television(fake);
+    struct gn_television_state s;
+    for (int i = 0; i < 200; i++) {
+        cec_fake_lock();
+        fake->log[0] = '\0';
+        cec_fake_unlock();
+        gn_television_set(t, false, NULL);
+        WAIT(t, &s, s.told == GN_TELEVISION_STANDBY);
+        gn_television_set(t, true, NULL);
+        gn_television_set(t, false, NULL);
+        WAIT(t, &s, s.told == GN_TELEVISION_STANDBY);
+        usleep(1000);
+        assert_int_equal(cec_fake_count(fake, "40:36 40:36"), 0);
+    }
+    close_television(t, fake);
+}
+
 static void one_that_misses_messages_is_told_until_it_hears(void **state) {
     (void)state;
     struct cec_fake *fake = cec_fake_new();
@@ -259,6 +299,8 @@ int main(void) {
         cmocka_unit_test(pauses_grow_and_then_only_what_helps_goes_on),
         cmocka_unit_test(each_change_is_told_once),
         cmocka_unit_test(what_was_wanted_last_holds),
+        cmocka_unit_test(a_change_in_the_middle_of_an_attempt_follows_it),
+        cmocka_unit_test(what_is_taken_back_before_it_is_told_is_not_told),
         cmocka_unit_test(one_that_misses_messages_is_told_until_it_hears),
         cmocka_unit_test(silence_is_a_problem_until_it_ends),
         cmocka_unit_test(an_unplugged_one_is_waited_for_without_a_problem),
