@@ -36,6 +36,7 @@ HELP_OPENS(open_osmesa_without_srgb, "osmesa", "srgb")
 static int close_all(void **state) {
     (void)state;
     stage.scene->lights = own_lights;
+    stage.pose.lights = own_lights;
     help_stage_close(&stage);
     return 0;
 }
@@ -44,6 +45,7 @@ static int close_all(void **state) {
 static int setup(void **state) {
     (void)state;
     stage.scene->lights = own_lights;
+    stage.pose.lights = own_lights;
     stage.scene->light_count = 3;
     opts = (struct gn_frame_opts){.width_px = WIDTH,
                                   .height_px = HEIGHT,
@@ -259,6 +261,7 @@ static void test_over_many_lights(void **state) {
         many_lights[i].color[0] *= 3.0f; /* what is over white must not shine through */
     }
     stage.scene->lights = many_lights;
+    stage.pose.lights = many_lights;
     stage.scene->light_count = GN_LIGHTS_MAX + 2;
     for (uint32_t msaa = 0; msaa <= 4; msaa += 4) {
         opts.msaa = msaa;

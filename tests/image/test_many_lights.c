@@ -27,6 +27,7 @@ static void open_with(const char *backend, const char *without) {
     help_stage_open(&stage, gn_stage_scene_make, backend, without, &warnings);
     memcpy(own, stage.scene->lights, sizeof own);
     stage.scene->lights = lights; /* none of them is made yet */
+    stage.pose.lights = lights;
     opts = (struct gn_frame_opts){.width_px = WIDTH,
                                   .height_px = HEIGHT,
                                   .shadow.encoding = GN_ENCODING_AUTO,

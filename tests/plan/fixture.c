@@ -62,5 +62,6 @@ void gn_plan_add_lights(struct gn_plan_fixture *f, struct gn_light lights[13]) {
     }
     for (int i = 5; i < 13; i++) lights[i].outer_rad = 0.25f, lights[i].inner_rad = 0.2f;
     f->scene->lights = lights;
+    f->pose.lights = lights;
     f->scene->light_count = 13;
 }

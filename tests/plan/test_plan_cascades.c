@@ -388,6 +388,7 @@ static void test_they_end_before_tiles_are_too_small(void **state) {
             begin(&f, gn_field_scene_make(), 4096);
             for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++) suns[i] = f.scene->lights[0];
             f.scene->lights = suns;
+            f.pose.lights = suns;
             f.scene->light_count = GN_ALL_SHADOWS_MAX;
             f.opts.shadow.technique_given = true;
             f.opts.shadow.technique = (enum gn_technique)t;

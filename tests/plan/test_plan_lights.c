@@ -132,6 +132,7 @@ static void test_no_pass_overwrites_constants_of_another(void **state) {
     lights[0].technique = lights[1].technique = "pcf";
     lights[2].technique = "planar";
     f.scene->lights = lights;
+    f.pose.lights = lights;
     f.opts.shadow.planar_in_stencil = true;
     const struct gn_plan *plan = gn_plan_make(&f);
     bool in_stencil = false;
@@ -217,6 +218,7 @@ static void make_bulbs(struct gn_plan_fixture *f, struct gn_light *lights, uint3
         glm_vec3_scale(f->scene->lights[2].color, (float)(i + 1), lights[i].color);
     }
     f->scene->lights = lights;
+    f->pose.lights = lights;
     f->scene->light_count = count;
 }
 
@@ -274,6 +276,7 @@ static void make_spots(struct gn_plan_fixture *f, struct gn_light *lights, uint3
         lights[i].slide_lit_outside = i == 1;
     }
     f->scene->lights = lights;
+    f->pose.lights = lights;
     f->scene->light_count = count;
     f->scene->pictures.images = &slide_image;
     f->scene->pictures.textures = &slide_texture;
