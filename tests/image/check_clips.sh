@@ -1,16 +1,12 @@
 #!/bin/bash
 # Clips in a kiosk: none draws frames once it stands, at its end or without a speed; a mode that
 # begins its clips anew plays them each time it is entered.
-. tests/script.sh
-kiosk=''
-trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
-
-ctl() { timeout 90 "$gnomon" ctl --socket "$folder/ctl" "$@" > "$folder/out" 2>&1; }
+. tests/kiosk.sh
+cd "$folder" || exit 1
 
 # frames: how many were drawn
 frames() {
-    until ctl status --json && grep -q '"drawn"' "$folder/out"; do sleep .1; done
-    grep -o '"drawn": *[0-9]*' "$folder/out" | grep -o '[0-9]*$'
+    ctl status | sed -n 's/^frames.drawn: //p'
 }
 
 # stands WHAT: no frame within .8 s, twenty seconds from now at the latest
@@ -35,7 +31,7 @@ moves() {
     complain "$1: draws no frames"
 }
 
-cat > "$folder/kiosk.ini" << 'END'
+cat > kiosk.ini << 'END'
 [kiosk]
 clip_fade = 0
 captions = no
@@ -55,47 +51,42 @@ animation_start = 3
 shadow = hard
 animation_loop = loop
 END
-"$gnomon" show --backend egl --size 64x36 --socket "$folder/ctl" -c "$folder/kiosk.ini" \
-    > "$folder/kiosk.out" 2>&1 &
-kiosk=$!
-for _ in $(seq 600); do ctl status && break || sleep .1; done
+show -c kiosk.ini
+says 'frames.drawn: [1-9].*' 'a start' 60
 
 stands 'clips that played once'
 # entered: a few frames for the other mode, but none of the clips, which have ended
 before=$(frames)
-ctl mode Still
+ctl mode Still > /dev/null
 stands 'clips without a speed'
-ctl mode Once
+ctl mode Once > /dev/null
 stands 'clips that have ended'
 passed=$(($(frames) - before))
-before=$(frames)
-ctl mode Anew
-sleep 1
-stands 'clips that began anew'
-anew=$(($(frames) - before))
-[ "$anew" -gt $((passed + 20)) ] || complain "begun anew $anew frames, of clips that ended $passed"
-ctl mode Still
+
+# begins WHAT: the mode Anew plays its clips once
+begins() {
+    local before new
+    before=$(frames)
+    ctl mode Anew > /dev/null
+    sleep 1
+    stands "$1"
+    new=$(($(frames) - before))
+    [ "$new" -gt $((passed + 20)) ] || complain "$1: $new frames, and $passed of clips that have ended"
+    begun="$begun $new"
+}
+begun=''
+begins 'clips of a mode that is entered'
+ctl mode Still > /dev/null
 stands 'clips without a speed'
-before=$(frames)
-ctl mode Anew
-sleep 1
-stands 'clips that began anew once more'
-again=$(($(frames) - before))
-[ "$again" -gt $((passed + 20)) ] || complain "once more $again frames, of clips that ended $passed"
-before=$(frames)
-ctl mode Anew
-sleep 1
-stands 'clips that began anew where their mode was shown'
-named=$(($(frames) - before))
-[ "$named" -gt $((passed + 20)) ] || complain "named again $named frames, of clips that ended $passed"
-ctl mode Loop
+begins 'clips of a mode that is entered again'
+begins 'clips of a mode that is named while it is shown'
+
+ctl mode Loop > /dev/null
 moves 'clips in a loop'
-ctl set animation_speed 0
+ctl set animation_speed 0 > /dev/null
 stands 'clips whose speed is set to 0'
-ctl set animation_speed 2
+ctl set animation_speed 2 > /dev/null
 moves 'clips that go on'
-ctl quit
-wait "$kiosk" || complain "status $?"
-kiosk=''
-echo "frames: $passed of modes whose clips stand, $anew, $again and $named of clips begun anew"
+stop
+echo "frames: $passed of modes whose clips stand;$begun of clips that begin"
 exit $bad

@@ -2,50 +2,25 @@
 # [kiosk] watch: the scene is replaced under way, by rename and in place, half of the times by a bad
 # or unfinished file. Each good one is shown within 2 s once it is written, no bad one ever, and no
 # black picture; the status has what is wrong while it is. GN_FULL=1: a hundred times; TIMES=N: N.
-set -u
-gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
+. tests/kiosk.sh
 times=30
 [ "${GN_FULL:-}" != 1 ] || times=100
 times=${TIMES:-$times}
-folder=$(mktemp -d)
-kiosk=''
-trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
-export XDG_CONFIG_HOME="$folder/none"
-bad=0
 cd "$folder" || exit 1
 
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
-ctl() { timeout 90 "$gnomon" ctl --socket "$folder/ctl" "$@"; }
-
-# colour NAME R,G,B: a scene that is all of that colour, and its picture
-colour() {
-    cat > "$1.gltf" << END
-{"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_unlit"],
-"scenes":[{"nodes":[0],"extras":{"gnomon_background":[$2]}}],
-"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
-"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[$2,1]},"extensions":{"KHR_materials_unlit":{}}}],
-"buffers":[{"byteLength":36,"uri":"triangle.bin"}],
-"bufferViews":[{"buffer":0,"byteLength":36}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0,1]}]}
-END
-    "$gnomon" render "$1.gltf" --size 32x32 --msaa 0 -o "$1.png" || complain "render $1"
-}
 printf '\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\200\77\0\0\200\77\0\0\0\0\0\0\0\0' > triangle.bin
-colour red 1,0,0
-colour green 0,1,0
-colour blue 0,0,1
+buffer=triangle.bin
+colour red 1,0,0 32x32
+colour green 0,1,0 32x32
+colour blue 0,0,1 32x32
 cmp -s red.png blue.png && complain 'two colours are one'
 mkdir shown
 cp triangle.bin shown/
 cp red.gltf shown/scene.gltf
-printf '%s\n' '[scene]' 'file = scene.gltf' '[render]' 'shadow = none' 'size = 32x32' '[kiosk]' \
-    'captions = no' 'watch = yes' '[display]' 'backend = egl' > shown/kiosk.ini
+printf '%s\n' '[scene]' 'file = scene.gltf' '[render]' 'shadow = none' '[kiosk]' \
+    'captions = no' 'watch = yes' > shown/kiosk.ini
 
-"$gnomon" show -c shown/kiosk.ini --socket "$folder/ctl" > kiosk.out 2> kiosk.err &
-kiosk=$!
+show -c shown/kiosk.ini --size 32x32
 
 milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 shows() { ctl screenshot now.png > /dev/null 2> err && cmp -s now.png "$1.png"; }
@@ -136,8 +111,7 @@ ctl get shadow | grep -q 'value: hard' || complain 'a changed kiosk.ini is not t
 ctl quit > /dev/null
 wait "$kiosk" || complain "it ends with $?: $(cat kiosk.err)"
 rm shown/later.gltf
-"$gnomon" show -c shown/kiosk.ini --socket "$folder/ctl" > kiosk.out 2> kiosk.err &
-kiosk=$!
+show -c shown/kiosk.ini --size 32x32
 for _ in $(seq 200); do ctl status 2> err | grep -q '^problem: .*showing the default scene' && break || sleep 0.1; done
 ctl status | grep -q '^config.error: .*later.gltf' || complain 'a missing scene is not told on the screen'
 cp red.gltf shown/later.gltf

@@ -1,25 +1,11 @@
 #!/bin/bash
 # gnomon ctl and a running kiosk, unseen: every command, what it says when it cannot, the socket's
 # file, screenshots, reload with a bad file, --check.
-set -u
-gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
+. tests/kiosk.sh
 compare=$(realpath "${BUILD:-build/release}/tests/tool_compare")
-folder=$(mktemp -d)
-kiosk=''
-trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
-export XDG_CONFIG_HOME="$folder/none"
-unset XDG_RUNTIME_DIR
-bad=0
 cp assets/sundial.glb "$folder/"
 cp assets/lessons/solids.glb "$folder/other.glb"
 cd "$folder" || exit 1
-
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
-
-ctl() { timeout 90 "$gnomon" ctl --socket "$folder/ctl" "$@"; }
 
 # expect STATUS TEXT WORD..: ctl ends with that status and says the text, on stdout if that is 0
 expect() {
@@ -44,8 +30,7 @@ expect() {
 
 # start ARGUMENT..: a kiosk, until it answers
 start() {
-    "$gnomon" show --backend egl --size 160x90 --socket "$folder/ctl" "$@" > kiosk.out 2> kiosk.err &
-    kiosk=$!
+    show --size 160x90 "$@"
     for _ in $(seq 600); do
         ctl status > /dev/null 2>&1 && return
         kill -0 "$kiosk" 2> /dev/null || break

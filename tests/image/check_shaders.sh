@@ -1,23 +1,9 @@
 #!/bin/bash
 # --shaders: a running kiosk reads the folder again when a file changes; a broken one changes nothing but for
 # a line on stderr.
-set -u
-gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
-folder=$(mktemp -d)
-kiosk=''
-trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
-export XDG_CONFIG_HOME="$folder/none"
-unset XDG_RUNTIME_DIR
-bad=0
+. tests/kiosk.sh
 cp -r shaders_es "$folder/shaders"
 cd "$folder" || exit 1
-
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
-
-ctl() { timeout 60 "$gnomon" ctl --socket "$folder/ctl" "$@"; }
 
 # paint R G B: the lit program draws that colour alone; by way of another file, as editors do
 paint() {
@@ -35,12 +21,8 @@ await() {
 }
 
 printf '[kiosk]\ncaptions = no\n' > kiosk.ini
-"$gnomon" show -c kiosk.ini --backend egl --size 96x54 --shadow hard --no-animation --shaders shaders --socket "$folder/ctl" > kiosk.out 2> kiosk.err &
-kiosk=$!
-for _ in $(seq 300); do
-    ctl status > /dev/null 2>&1 && break
-    sleep 0.1
-done
+show -c kiosk.ini --size 96x54 --shadow hard --no-animation --shaders shaders
+says 'frames.drawn: [1-9].*' 'a start' 60
 ctl screenshot plain.png > /dev/null || complain "no picture: $(cat kiosk.err)"
 
 paint 1.0 0.0 0.0
@@ -68,8 +50,6 @@ mv lit.new shaders/lib/map_lit.glsl
 "$gnomon" render --backend egl --msaa 0 --size 96x54 --shadow none --no-animation -o none.png || complain 'a picture without shadows'
 await none.png
 
-ctl quit > /dev/null || complain 'quit'
-wait "$kiosk" || complain "the kiosk ends with $?: $(cat kiosk.err)"
-kiosk=''
+stop
 [ "$(wc -l < kiosk.err)" = 1 ] || complain "warnings: $(cat kiosk.err)"
 exit $bad

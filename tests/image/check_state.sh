@@ -2,54 +2,15 @@
 # [kiosk] state of a kiosk that runs: mode, scene and counters outlast its end and its death; what
 # is lost meanwhile is shown as configured, or as it was last, with the reason. Killed while it
 # saves, it finds the old state or the new one. GN_FULL=1: killed 60 times; TIMES=N: N.
-set -u
-gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
+. tests/kiosk.sh
 times=6
 [ "${GN_FULL:-}" != 1 ] || times=60
 times=${TIMES:-$times}
-folder=$(mktemp -d)
-kiosk=''
-trap '[ -z "$kiosk" ] || kill -KILL "$kiosk" 2> /dev/null; rm -rf "$folder"' EXIT
-export XDG_CONFIG_HOME="$folder/none"
-bad=0
 cd "$folder" || exit 1
 
-complain() {
-    echo "FAIL: $*"
-    bad=1
-}
-ctl() { timeout 90 "$gnomon" ctl --socket "$folder/ctl" "$@"; }
-# says TEXT: the status does, within a while
-says() {
-    for _ in $(seq 150); do
-        ctl status > status 2> err && grep -qxF "$1" status && return
-        sleep 0.1
-    done
-    complain "$2: no \"$1\": $(grep -E '^(mode|scene|problem|config|state)' status; cat err kiosk.err)"
-}
-start() {
-    "$gnomon" show -c kiosk.ini --backend egl --size 64x36 --socket "$folder/ctl" "$@" > kiosk.out 2> kiosk.err &
-    kiosk=$!
-}
-stop() {
-    ctl quit > /dev/null
-    wait "$kiosk" || complain "it ends with $?: $(cat kiosk.err)"
-    kiosk=''
-}
+start() { show -c kiosk.ini "$@"; }
 quiet() { [ ! -s kiosk.err ] || complain "$1: $(cat kiosk.err)"; }
 
-# colour NAME R,G,B: a scene that is all of that colour
-colour() {
-    cat > "$1.gltf" << END
-{"asset":{"version":"2.0"},"extensionsUsed":["KHR_materials_unlit"],
-"scenes":[{"nodes":[0],"extras":{"gnomon_background":[$2]}}],
-"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],
-"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[$2,1]},"extensions":{"KHR_materials_unlit":{}}}],
-"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAAAAAAAAAAAAAIA/AACAPwAAAAAAAAAA"}],
-"bufferViews":[{"buffer":0,"byteLength":36}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,0,1]}]}
-END
-}
 colour red 1,0,0
 colour green 0,1,0
 colour blue 0,0,1
