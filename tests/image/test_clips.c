@@ -9,46 +9,21 @@
 
 #include "core/clock.h"
 #include "kiosk/private.h"
-#include "options/args.h"
 #include "unit/gl_help.h"
+#include "unit/show_help.h"
 
 #define PATIENCE_NS (60 * GN_NS_PER_S) /* of the processor */
 
 /* A kiosk of that configuration; its scene is the default one, with the clips hoop and gull. */
 static struct gn_show *open_show(const char *ini) {
-    static struct gn_warnings warnings;
-    static char path[300];
-    struct gn_options options;
-    struct gn_err err = {0};
-    struct gn_display display;
-    help_open(&display, "egl"); /* or the test is skipped */
-    gn_display_close(&display);
-    const char *folder = help_folder();
-    help_write(folder, "x/kiosk.ini", ini);
-    snprintf(path, sizeof path, "%s/x/kiosk.ini", folder);
-    const char *const argv[] = {"gnomon", "show",  "--backend", "egl",
-                                "--size", "64x64", "-c",        path};
-    setenv("XDG_CONFIG_HOME", "/nowhere", 1);
-    if (!gn_args_parse(&options, sizeof argv / sizeof *argv, (char *const *)(uintptr_t)argv,
-                       &warnings, &err))
-        fail_msg("%s", err.text);
-    struct gn_show *show = gn_show_open(&options, &warnings, &err);
-    gn_options_finish(&options);
-    if (!show) fail_msg("%s", err.text);
-    help_remove(folder);
-    return show;
-}
-
-static void step(struct gn_show *show) {
-    struct gn_err err = {0};
-    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+    return help_show_of(ini, (const char *const[]){NULL});
 }
 
 static void draw_frame(struct gn_show *show) {
     const uint64_t before = show->counts.frames;
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     while (show->counts.frames == before) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
     }
 }
@@ -56,7 +31,7 @@ static void draw_frame(struct gn_show *show) {
 static void until_warm(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     do {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
     } while (show->counts.frames == 0 || gn_show_has_work(show));
 }
@@ -66,7 +41,7 @@ static void until_still(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     until_warm(show);
     while (!show->stage.display.screen.may_draw || gn_show_wants_frame(show)) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
     }
 }

@@ -11,8 +11,8 @@
 #include "core/clock.h"
 #include "image/large.h"
 #include "kiosk/private.h"
-#include "options/args.h"
 #include "unit/gl_help.h"
+#include "unit/show_help.h"
 
 #define PATIENCE_NS (120 * GN_NS_PER_S)
 enum { CALM_FRAMES = 120, FRAMES_MAX = 20000 };
@@ -42,19 +42,9 @@ static void write_config(const char *scene) {
 }
 
 static struct gn_show *open_show(void) {
-    static struct gn_warnings warnings;
     static char config[200];
-    static const char *argv[] = {"gnomon",  "show", "--backend", "egl", "--size",
-                                 "320x180", "-c",   config,      NULL};
-    struct gn_options options;
-    struct gn_err err = {0};
     snprintf(config, sizeof config, "%s/kiosk.ini", folder);
-    if (!gn_args_parse(&options, 8, (char *const *)(uintptr_t)argv, &warnings, &err))
-        fail_msg("%s", err.text);
-    struct gn_show *show = gn_show_open(&options, &warnings, &err);
-    gn_options_finish(&options);
-    if (!show) fail_msg("%s", err.text);
-    return show;
+    return help_show((const char *const[]){"--size", "320x180", "-c", config, NULL});
 }
 
 static enum work work_of(const struct gn_show *show) {

@@ -13,14 +13,13 @@
 
 #include "core/clock.h"
 #include "kiosk/private.h"
-#include "options/args.h"
 #include "unit/gl_help.h"
+#include "unit/show_help.h"
 
 #define PATIENCE_NS (60 * GN_NS_PER_S)
 
 static char folder[100], good[300], other[300];
 static bool remembers; /* kiosks have a state */
-static struct gn_warnings warnings;
 
 static const char *in_folder(const char *name) {
     static char path[200];
@@ -89,30 +88,16 @@ static int end(void **state) {
 
 static struct gn_show *open_show(const char *scene) {
     static char config[200];
-    static const char *argv[] = {"gnomon", "show", "--backend", "egl", "--size",
-                                 "64x64",  "-c",   config,      NULL};
-    struct gn_options options;
-    struct gn_err err = {0};
     write_config(scene);
     snprintf(config, sizeof config, "%s", in_folder("kiosk.ini"));
-    if (!gn_args_parse(&options, 8, (char *const *)(uintptr_t)argv, &warnings, &err))
-        fail_msg("%s", err.text);
-    struct gn_show *show = gn_show_open(&options, &warnings, &err);
-    gn_options_finish(&options);
-    if (!show) fail_msg("%s", err.text);
-    return show;
-}
-
-static void step(struct gn_show *show) {
-    struct gn_err err = {0};
-    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+    return help_show((const char *const[]){"--size", "64x64", "-c", config, NULL});
 }
 
 static void frames(struct gn_show *show, unsigned count) {
     const uint64_t end = show->counts.frames + count;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->counts.frames < end) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
 }
@@ -124,7 +109,7 @@ static bool is_shown(const struct gn_show *show, const char *scene) {
 static void wait_for_importer(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!importer_runs()) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
 }
@@ -163,7 +148,7 @@ static const char *write_huge(void) {
 static void wait_for_staging(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!gn_show_reload_is_staged(show)) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
 }
@@ -196,7 +181,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     show->reloads = true;
     wait_for_staging(show);
     show->reload.alone = true;
-    step(show);
+    help_show_step(show);
     assert_null(show->reload.options);
     frames(show, 2);
     assert_true(is_shown(show, good));
@@ -207,7 +192,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     wait_for_staging(show);
     write_config(in_folder("huge.gltf"));
     show->reloads = true;
-    step(show);
+    help_show_step(show);
     assert_false(gn_show_reload_is_staged(show));
     gn_show_close(show);
 }
@@ -221,7 +206,7 @@ static void a_bad_reload_keeps_the_scene(void **state) {
     show->reloads = true;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!show->config.options->config_error) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     assert_non_null(strstr(show->config.error, "kiosk.ini:2: file: "));
@@ -241,7 +226,7 @@ static void the_first_picture_does_not_wait_for_the_first_scene(void **state) {
     assert_true(show->reload.first || gn_clock_monotonic_ns() - begun_ns > 2 * GN_NS_PER_S);
     show->reloads = true; /* goes on with the first load */
     while (show->reload.first) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     frames(show, 2);
@@ -265,7 +250,7 @@ static void a_first_scene_that_fails_late_is_replaced_by_the_last_good_one(void 
     const int64_t begun_ns = gn_clock_monotonic_ns();
     assert_true(show->reload.first);
     while (show->reload.first) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     frames(show, 2);

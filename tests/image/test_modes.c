@@ -13,46 +13,22 @@
 #include "core/memory.h"
 #include "gl/private.h"
 #include "kiosk/private.h"
-#include "options/args.h"
 #include "unit/gl_help.h"
+#include "unit/show_help.h"
 
 enum { SIDE = 64, PIXELS = SIDE * SIDE };
 #define PATIENCE_NS (60 * GN_NS_PER_S)
 
-static struct gn_show *open_show(const char *const *more, int more_count) {
-    static struct gn_warnings warnings;
-    struct gn_options options;
-    struct gn_err err = {0};
-    const char *argv[24] = {"gnomon", "show",  "--backend", "egl",
-                            "--size", "64x64", "--limit",   "ahead_percent=100000"};
-    struct gn_display display;
-    int argc = 8;
-    help_open(&display, "egl"); /* or the test is skipped */
-    gn_display_close(&display);
-    for (int i = 0; i < more_count; i++) argv[argc++] = more[i];
-    setenv("XDG_CONFIG_HOME", "/nowhere", 1);
-    if (!gn_args_parse(&options, argc, (char *const *)(uintptr_t)argv, &warnings, &err))
-        fail_msg("%s", err.text);
-    struct gn_show *show = gn_show_open(&options, &warnings, &err);
-    gn_options_finish(&options);
-    if (!show) fail_msg("%s", err.text);
-    return show;
-}
 #define OPEN(...)                                                                                  \
-    open_show((const char *const[]){__VA_ARGS__},                                                  \
-              sizeof(const char *const[]){__VA_ARGS__} / sizeof(const char *))
-
-static void step(struct gn_show *show) {
-    struct gn_err err = {0};
-    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
-}
+    help_show((const char *const[]){"--size", "64x64", "--limit", "ahead_percent=100000",          \
+                                    __VA_ARGS__, NULL})
 
 /* Frames, at most a minute's. */
 static void frames(struct gn_show *show, unsigned count) {
     const uint64_t end = show->counts.frames + count;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->counts.frames < end) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
 }
@@ -67,7 +43,7 @@ static void act(struct gn_show *show, enum gn_action_kind kind) {
 static void until_warm(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     do {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
     } while (show->counts.frames == 0 || gn_show_has_work(show));
 }
@@ -96,7 +72,7 @@ static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
     while (gn_show_has_work(show)) {
         const uint64_t made = show->stage.gl->programs.made, proofs = show->stage.gl->probed;
         const uint64_t before = show->counts.frames;
-        step(show);
+        help_show_step(show);
         assert_true(show->counts.frames - before <= 1);
         if (proofs == show->stage.gl->probed)
             assert_true(show->stage.gl->programs.made - made <= 1);
@@ -199,7 +175,7 @@ static void what_is_not_ready_keeps_the_old_picture(void **state) {
     while (show->drawn.mode != wanted) {
         const uint64_t made = show->stage.gl->programs.made;
         const bool was_ready = show->looks.ready >> wanted & 1;
-        step(show);
+        help_show_step(show);
         if (was_ready) assert_int_equal(show->drawn.mode, wanted);
         if (show->drawn.mode == wanted) /* nothing of it was left to be made for its frame */
             assert_true(show->stage.gl->programs.made - made <= 1);
@@ -217,7 +193,7 @@ static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
     const int wanted = show->kiosk.wanted.mode;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->drawn.mode != wanted) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     gn_show_close(show);
@@ -248,10 +224,10 @@ static void programs_of_other_modes_are_within_their_share(void **state) {
         const int64_t begun_ns = gn_clock_process_cpu_ns();
         act(show, GN_ACTION_NEXT);
         while (show->drawn.mode != next) {
-            step(show);
+            help_show_step(show);
             assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
         }
-        while (gn_show_has_work(show)) step(show);
+        while (gn_show_has_work(show)) help_show_step(show);
         const uint64_t all = gn_memory_allocated(),
                        idle = gn_gl_idle_programs(show->stage.gl).bytes,
                        share = (gn_memory_total_mb() << 20) / 16;
@@ -260,7 +236,7 @@ static void programs_of_other_modes_are_within_their_share(void **state) {
     }
     assert_true(rounds[2] < rounds[1] + rounds[1] / 10);
     show->changed = true; /* without the caption of the last change */
-    while (show->kiosk.caption || gn_show_wants_frame(show)) step(show);
+    while (show->kiosk.caption || gn_show_wants_frame(show)) help_show_step(show);
     read_picture(show, after);
     assert_memory_equal(before, after, sizeof before);
     gn_memory_pretend_mb(0);
@@ -297,18 +273,18 @@ static void pause_stands_and_blank_is_dark(void **state) {
     until_warm(show);
     frames(show, 2);
     act(show, GN_ACTION_PAUSE);
-    step(show);
+    help_show_step(show);
     const int64_t stood_ns = show->drawn.time_ns;
-    while (show->kiosk.caption || gn_show_wants_frame(show)) step(show);
+    while (show->kiosk.caption || gn_show_wants_frame(show)) help_show_step(show);
     assert_int_equal(show->drawn.time_ns, stood_ns);
     read_picture(show, before);
     act(show, GN_ACTION_BLANK);
-    step(show);
+    help_show_step(show);
     assert_true(show->stage.display.screen.blank);
     assert_false(gn_show_wants_frame(show));
     const uint64_t dark = show->counts.frames;
     act(show, GN_ACTION_NEXT_CAMERA); /* lights it, and no more */
-    step(show);
+    help_show_step(show);
     assert_false(show->stage.display.screen.blank);
     assert_int_equal(show->kiosk.camera, 0);
     assert_true(show->counts.frames - dark <= 1);
@@ -331,7 +307,7 @@ static void a_fade_begins_with_the_old_picture(void **state) {
     until_warm(show);
     read_picture(show, old);
     act(show, GN_ACTION_NEXT); /* no shadows at all */
-    while (show->drawn.mode == show->modes.first) step(show);
+    while (show->drawn.mode == show->modes.first) help_show_step(show);
     read_picture(show, first);
     unsigned worst = 0, all = 0;
     show->rules.fade_ns = 0; /* over */
@@ -362,7 +338,7 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->drawn.scene == 0) {
         const uint64_t made = show->stage.gl->programs.made;
-        step(show);
+        help_show_step(show);
         if (show->drawn.scene != 0) /* nothing of it was left to be made for its frame */
             assert_true(show->stage.gl->programs.made - made <= 1);
         if (show->scenes.shown == 0) assert_ptr_equal(show->stage.scene->name, name);
@@ -372,7 +348,7 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
     assert_int_equal(show->stage.scene->triangle_count > 0, 1);
     until_warm(show);
     act(show, GN_ACTION_NEXT_SCENE); /* and back */
-    while (show->drawn.scene == 1) step(show);
+    while (show->drawn.scene == 1) help_show_step(show);
     gn_show_close(show);
 }
 
@@ -389,7 +365,7 @@ static void a_bad_scene_changes_nothing(void **state) {
     assert_true(gn_kiosk_waits(&show->kiosk));
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (gn_kiosk_waits(&show->kiosk)) {
-        step(show);
+        help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     assert_int_equal(show->drawn.scene, 0);
@@ -404,7 +380,7 @@ static void the_end_does_not_wait_for_a_scene(void **state) {
     struct gn_show *show = OPEN("assets/bench/s1.glb", "assets/bench/s2.glb", "--shadow", "pcf");
     frames(show, 1);
     act(show, GN_ACTION_NEXT_SCENE);
-    step(show);
+    help_show_step(show);
     assert_true(gn_loader_is_busy(show->scenes.loader) || show->scenes.staged);
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     gn_show_close(show);

@@ -6,8 +6,8 @@
 
 #include "core/clock.h"
 #include "kiosk/private.h"
-#include "options/args.h"
 #include "unit/gl_help.h"
+#include "unit/show_help.h"
 
 #define SECONDS(n) ((n)*GN_NS_PER_S)
 #define FRAME_NS   (GN_NS_PER_S / 30) /* two of the headless screen's: when a time is seen */
@@ -15,26 +15,7 @@
 static int64_t clock_ns;
 
 static struct gn_show *open_show(const char *config) {
-    static struct gn_warnings warnings;
-    struct gn_options options;
-    struct gn_err err = {0};
-    struct gn_display display;
-    const char *folder = help_folder();
-    char path[200];
-    const char *argv[] = {"gnomon", "show", "--backend", "egl",           "--size",
-                          "64x64",  "-c",   path,        "--no-animation"};
-    help_open(&display, "egl"); /* or the test is skipped */
-    gn_display_close(&display);
-    help_write(folder, "kiosk.ini", config);
-    snprintf(path, sizeof path, "%s/kiosk.ini", folder);
-    if (!gn_args_parse(&options, sizeof argv / sizeof *argv, (char *const *)(uintptr_t)argv,
-                       &warnings, &err))
-        fail_msg("%s", err.text);
-    struct gn_show *show = gn_show_open(&options, &warnings, &err);
-    gn_options_finish(&options);
-    help_remove(folder);
-    if (!show) fail_msg("%s", err.text);
-    if (show->config.options->config_error) fail_msg("%s", show->config.options->config_error);
+    struct gn_show *show = help_show_of(config, (const char *const[]){"--no-animation", NULL});
     clock_ns = gn_clock_monotonic_ns();
     gn_loop_fake_clock(show->loop, &clock_ns);
     return show;

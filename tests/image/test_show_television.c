@@ -9,35 +9,16 @@
 
 #include "core/clock.h"
 #include "kiosk/private.h"
-#include "options/args.h"
 #include "unit/cec_fake.h"
 #include "unit/gl_help.h"
+#include "unit/show_help.h"
 
 #define SECONDS(n) ((n)*GN_NS_PER_S)
 
 static int64_t clock_ns;
 
 static struct gn_show *open_show(const char *config) {
-    static struct gn_warnings warnings;
-    struct gn_options options;
-    struct gn_err err = {0};
-    struct gn_display display;
-    const char *folder = help_folder();
-    char path[200];
-    const char *argv[] = {"gnomon", "show", "--backend", "egl",           "--size",
-                          "64x64",  "-c",   path,        "--no-animation"};
-    help_open(&display, "egl"); /* or the test is skipped */
-    gn_display_close(&display);
-    help_write(folder, "kiosk.ini", config);
-    snprintf(path, sizeof path, "%s/kiosk.ini", folder);
-    if (!gn_args_parse(&options, sizeof argv / sizeof *argv, (char *const *)(uintptr_t)argv,
-                       &warnings, &err))
-        fail_msg("%s", err.text);
-    struct gn_show *show = gn_show_open(&options, &warnings, &err);
-    gn_options_finish(&options);
-    help_remove(folder);
-    if (!show) fail_msg("%s", err.text);
-    if (show->config.options->config_error) fail_msg("%s", show->config.options->config_error);
+    struct gn_show *show = help_show_of(config, (const char *const[]){"--no-animation", NULL});
     clock_ns = gn_clock_monotonic_ns();
     gn_loop_fake_clock(show->loop, &clock_ns);
     return show;
@@ -63,16 +44,11 @@ static void take_fake(struct gn_show *show, struct cec_fake *fake) {
     assert_true(gn_loop_add(show->loop, &t->watch));
 }
 
-static void step(struct gn_show *show) {
-    struct gn_err err = {0};
-    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
-}
-
 static void run_until(struct gn_show *show, int64_t until_ns) {
     struct gn_timer end = {.due_ns = until_ns};
     gn_loop_add_timer(show->loop, &end);
     for (int steps = 0; clock_ns < until_ns; steps++) {
-        step(show);
+        help_show_step(show);
         assert_true(steps < 100000); /* or time stands still */
     }
     gn_loop_remove_timer(&end);
@@ -109,7 +85,7 @@ static void each_night_is_one_standby_and_each_press_one_waking(void **state) {
                   "[mode \"a\"]\nshadow = none\n");
     struct cec_fake *fake = cec_fake_new();
     take_fake(show, fake);
-    step(show);
+    help_show_step(show);
     is_told(fake, 1, 0); /* at the start */
     set_hours(show, true);
     is_told(fake, 1, 1);
@@ -142,7 +118,7 @@ static void a_reload_tells_nothing_again(void **state) {
     is_told(fake, 0, 1);
     assert_false(show->stage.display.screen.blank); /* black */
     gn_show_open_television(show);                  /* what a reload does */
-    step(show);
+    help_show_step(show);
     is_told(fake, 0, 1);
     gn_show_close(show);
 }
@@ -150,7 +126,7 @@ static void a_reload_tells_nothing_again(void **state) {
 /* Steps until the status has the problem, or none. */
 static void problem_becomes(struct gn_show *show, bool is_there) {
     for (int i = 0; i < 60000; i++, usleep(1000)) {
-        step(show);
+        help_show_step(show);
         const char *text = gn_show_problem(show);
         if ((text && strstr(text, "/dev/")) == is_there) return;
     }
@@ -185,7 +161,7 @@ static void its_problem_is_named_until_it_is_cured(void **state) {
     cec_fake_unlock();
     act(show, GN_ACTION_BLANK, GN_TURN_OFF, false);
     for (int i = 0; i < 60000 && show->television.state.told != GN_TELEVISION_ON; i++) {
-        step(show);
+        help_show_step(show);
         usleep(1000);
     }
     assert_string_equal(gn_show_problem(show), "something else");
@@ -196,7 +172,7 @@ static void other_ways_of_off_tell_nothing(void **state) {
     (void)state;
     struct gn_show *show = open_show("[schedule]\noff = dpms\ncec_device = /dev/null\n"
                                      "[mode \"a\"]\nshadow = none\n");
-    step(show);
+    help_show_step(show);
     assert_null(show->television.told);
     gn_show_close(show);
 }

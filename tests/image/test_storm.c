@@ -16,8 +16,8 @@
 
 #include "core/clock.h"
 #include "kiosk/private.h"
-#include "options/args.h"
 #include "unit/gl_help.h"
+#include "unit/show_help.h"
 
 enum { HUGE_VERTICES = 2999997 };
 #define WATCHDOG_NS (4 * GN_NS_PER_S) /* WATCHDOG=1 comes every quarter of it */
@@ -96,27 +96,22 @@ static bool is_changing(const struct gn_show *show) {
     return show->reloads || show->reload.options || gn_kiosk_waits(&show->kiosk);
 }
 
-static void step(struct gn_show *show) {
-    struct gn_err err = {0};
-    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
-}
-
 /* What the frames of each scene take by themselves. Casters that seem to have moved: the map is
  * drawn again. */
 static void measure_calm(struct gn_show *show) {
     const struct gn_action next = {.kind = GN_ACTION_NEXT_SCENE};
     for (int i = 0; i < SCENES; i++) {
         gn_show_act(show, &next, gn_clock_monotonic_ns());
-        do step(show);
+        do help_show_step(show);
         while (show->reload.first || is_changing(show));
-        for (int k = 0; k < CALM_FRAMES; k++) step(show); /* work ahead, too */
+        for (int k = 0; k < CALM_FRAMES; k++) help_show_step(show); /* work ahead, too */
         struct frame_times *t = times_of(show);
         struct gap gap = {0};
         uint64_t frames = show->counts.frames;
         for (int k = 0; t && k < CALM_FRAMES;) {
             for (uint32_t n = 0; n < show->stage.scene->item_count; n++)
                 show->stage.pose.items[n].hash++;
-            step(show);
+            help_show_step(show);
             if (show->counts.frames == frames) continue;
             frames = show->counts.frames;
             end_gap(&gap);
@@ -197,20 +192,11 @@ static int open_notify(void) {
 }
 
 static struct gn_show *open_show(void) {
-    static struct gn_warnings warnings;
     static char config[200], control[200];
-    static const char *argv[] = {"gnomon", "show", "--backend", "egl",   "--size", "64x64",
-                                 "-c",     config, "--socket",  control, NULL};
-    struct gn_options options;
-    struct gn_err err = {0};
     snprintf(config, sizeof config, "%s/kiosk.ini", folder);
     snprintf(control, sizeof control, "%s/ctl", folder);
-    if (!gn_args_parse(&options, 10, (char *const *)(uintptr_t)argv, &warnings, &err))
-        fail_msg("%s", err.text);
-    struct gn_show *show = gn_show_open(&options, &warnings, &err);
-    gn_options_finish(&options);
-    if (!show) fail_msg("%s", err.text);
-    return show;
+    return help_show(
+        (const char *const[]){"--size", "64x64", "-c", config, "--socket", control, NULL});
 }
 
 static int connect_client(void) {
@@ -262,7 +248,7 @@ static void nothing_waits_for_a_scene(void **state) {
         const int64_t now_ns = gn_clock_monotonic_ns(), until_ns = now_ns + rand() % 500 * 1000000;
         const bool waits = rand() % 4 == 0;
         do {
-            step(show);
+            help_show_step(show);
             if (show->reload.first)
                 frame.last_ns = 0; /* "loading ..": it stands still */
             else if (show->counts.frames != frames)

@@ -1,0 +1,49 @@
+#include "unit/show_help.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "kiosk/private.h"
+#include "options/args.h"
+#include "unit/check.h"
+#include "unit/gl_help.h"
+
+enum { ARGUMENTS_MAX = 32 };
+
+struct gn_show *help_show(const char *const more[]) {
+    static struct gn_warnings warnings;
+    struct gn_options options;
+    struct gn_err err = {0};
+    struct gn_display display;
+    static const char *argv[ARGUMENTS_MAX]; /* a reload reads them again */
+    static const char *const first[] = {"gnomon", "show", "--backend", "egl"};
+    int argc = 0;
+    help_open(&display, "egl"); /* or the test is skipped */
+    gn_display_close(&display);
+    while (argc < 4) argv[argc] = first[argc], argc++;
+    while (*more && argc < ARGUMENTS_MAX) argv[argc++] = *more++;
+    setenv("XDG_CONFIG_HOME", "/nowhere", 1);
+    if (!gn_args_parse(&options, argc, (char *const *)(uintptr_t)argv, &warnings, &err))
+        fail_msg("%s", err.text);
+    struct gn_show *show = gn_show_open(&options, &warnings, &err);
+    gn_options_finish(&options);
+    if (!show) fail_msg("%s", err.text);
+    return show;
+}
+
+struct gn_show *help_show_of(const char *config, const char *const more[]) {
+    static char path[200]; /* the kiosk names its file */
+    const char *folder = help_folder(), *all[ARGUMENTS_MAX] = {"--size", "64x64", "-c", path};
+    for (int i = 4; i < ARGUMENTS_MAX - 5 && *more; i++) all[i] = *more++;
+    help_write(folder, "kiosk.ini", config);
+    snprintf(path, sizeof path, "%s/kiosk.ini", folder);
+    struct gn_show *show = help_show(all);
+    help_remove(folder);
+    if (show->config.options->config_error) fail_msg("%s", show->config.options->config_error);
+    return show;
+}
+
+void help_show_step(struct gn_show *show) {
+    struct gn_err err = {0};
+    if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+}

@@ -1,0 +1,15 @@
+/* For tests that step a kiosk by hand. */
+#ifndef GN_TESTS_SHOW_HELP_H
+#define GN_TESTS_SHOW_HELP_H
+
+#include "kiosk/show.h"
+
+/* A kiosk without a screen, of `gnomon show --backend egl` and these arguments, NULL behind the
+ * last; no configuration of the user's is read. Fails the test, or skips it where EGL is not there.
+ */
+struct gn_show *help_show(const char *const more[]);
+/* The same of 64x64 pixels, with that text as its configuration and these arguments. */
+struct gn_show *help_show_of(const char *config, const char *const more[]);
+void help_show_step(struct gn_show *show);
+
+#endif
