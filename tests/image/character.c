@@ -163,13 +163,11 @@ bool gn_many_joints_write(const char *path, struct gn_err *err) {
     static uint16_t joints[JOINTS][3][4];
     struct gn_maker maker;
     char json[200];
-    json_t *list = json_array(), *roots = json_array();
     gn_maker_init(&maker);
     for (int i = 0; i < JOINTS; i++) {
         snprintf(json, sizeof json, "{'translation':[%d,%d,0],'rotation':[0,%g,0,1]}", i % ROW,
                  i / ROW, (i * 37 % 64 - 32) / 64.0);
-        json_array_append_new(list, json_integer(gn_maker_add(&maker, "nodes", json)));
-        json_array_append_new(roots, json_integer(i));
+        gn_maker_add(&maker, "nodes", json);
         for (int c = 0; c < 3; c++) {
             positions[i][c][0] = c == 1 ? .9f : 0;
             positions[i][c][1] = c == 2 ? .9f : 0;
@@ -177,16 +175,7 @@ bool gn_many_joints_write(const char *path, struct gn_err *err) {
             weights[i][c][0] = 1;
         }
     }
-    gn_maker_accessor(&maker, "VEC3", FLOAT, 3 * JOINTS, positions, sizeof positions,
-                      "'min':[0,0,0],'max':[0.9,0.9,0]");
-    gn_maker_accessor(&maker, "VEC4", U16, 3 * JOINTS, joints, sizeof joints, NULL);
-    gn_maker_accessor(&maker, "VEC4", FLOAT, 3 * JOINTS, weights, sizeof weights, NULL);
-    gn_maker_add(&maker, "meshes",
-                 "{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2}}]}");
-    json_object_set_new(maker.root, "skins", json_pack("[{so}]", "joints", list));
-    json_array_append_new(roots,
-                          json_integer(gn_maker_add(&maker, "nodes", "{'mesh':0,'skin':0}")));
-    json_object_set_new(maker.root, "scenes", json_pack("[{so}]", "nodes", roots));
+    gn_maker_skinned(&maker, JOINTS, 3 * JOINTS, positions[0], joints[0], weights[0]);
     return gn_maker_write(&maker, path, err);
 }
 

@@ -110,6 +110,22 @@ void gn_maker_posed_square(struct gn_maker *maker) {
     gn_maker_set(maker, "scenes", "[{'nodes':[0,1]}]");
 }
 
+void gn_maker_skinned(struct gn_maker *maker, int nodes, size_t vertices,
+                      const float (*positions)[3], const uint16_t (*joints)[4],
+                      const float (*weights)[4]) {
+    json_t *list = json_array(), *roots = json_array();
+    for (int i = 0; i < nodes; i++) json_array_append_new(list, json_integer(i));
+    for (int i = 0; i <= nodes; i++) json_array_append_new(roots, json_integer(i));
+    gn_maker_accessor(maker, "VEC3", 5126, vertices, positions, vertices * sizeof *positions, NULL);
+    gn_maker_accessor(maker, "VEC4", 5123, vertices, joints, vertices * sizeof *joints, NULL);
+    gn_maker_accessor(maker, "VEC4", 5126, vertices, weights, vertices * sizeof *weights, NULL);
+    gn_maker_add(maker, "meshes",
+                 "{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2}}]}");
+    json_object_set_new(maker->root, "skins", json_pack("[{so}]", "joints", list));
+    gn_maker_add(maker, "nodes", "{'mesh':0,'skin':0}");
+    json_object_set_new(maker->root, "scenes", json_pack("[{so}]", "nodes", roots));
+}
+
 void gn_maker_cube(struct gn_maker *maker) {
     float positions[72];
     uint16_t indices[36];

@@ -39,6 +39,11 @@ void gn_maker_square(struct gn_maker *maker);
  * child, node 2, 2 to the right) those at x = 1; the targets lift all corners by 1, and move the
  * first by 1 along x. Accessor 2: joints, 3: weights, 4 and 5: targets, 6: bind matrices. */
 void gn_maker_posed_square(struct gn_maker *maker);
+/* Triangles of these vertices, as mesh 0, with a skin of the nodes that there are, which count as
+ * many: four joints and weights a vertex. Adds its node and a scene of all nodes. */
+void gn_maker_skinned(struct gn_maker *maker, int nodes, size_t vertices,
+                      const float (*positions)[3], const uint16_t (*joints)[4],
+                      const float (*weights)[4]);
 /* A cube from -1 to 1 as the next mesh: closed, flat normals left to the loader. */
 void gn_maker_cube(struct gn_maker *maker);
 
