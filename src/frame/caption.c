@@ -24,9 +24,7 @@ static void add_dimming(struct gn_frame *frame, float share) {
     const bool encodes = frame->plan.encode_srgb;
     const float ground = (float)CAPTION_SHADE;
     const float shade = encodes ? ground : powf((ground + 0.055f) / 1.055f, 2.4f);
-    float left = light;
-    if (encodes)
-        left = light <= 0.0031308f ? 12.92f * light : 1.055f * powf(light, 1.0f / 2.4f) - 0.055f;
+    float left = encodes ? gn_frame_srgb_from_linear(light) : light;
     while (left < shade) {
         add_rectangle(frame, &all, 1.0f);
         left /= shade;

@@ -120,11 +120,9 @@ static bool open_next_picture(struct gn_gl *gl) {
     struct gn_gl_picture *p = &s->upload.picture;
     *p = (struct gn_gl_picture){.image = pictures->images[index], .srgb = srgb, .open = true};
 
-    if (p->image.levels) {
-        s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
-        gn_gl_work_on_texture(gl, s->images[srgb][index]);
-        if (gn_gl_levels_open(gl, index)) return true;
-    }
+    s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    gn_gl_work_on_texture(gl, s->images[srgb][index]);
+    if (p->image.levels && gn_gl_levels_open(gl, index)) return true;
 
     /* halved until it fits the GPU */
     const struct gn_image *whole = &pictures->images[index];
@@ -148,8 +146,6 @@ static bool open_next_picture(struct gn_gl *gl) {
     const uint32_t width = p->image.width_px, height = p->image.height_px;
     p->levels = 1;
     while (p->mipmaps && (width > height ? width : height) >> p->levels > 0) p->levels++;
-    if (!s->images[srgb][index]) s->images[srgb][index] = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_work_on_texture(gl, s->images[srgb][index]);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_2D, p->levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)width, (GLsizei)height);
     s->texture_bytes += (uint64_t)width * height * 4 * (p->mipmaps ? 4 : 3) / 3;

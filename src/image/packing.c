@@ -85,12 +85,31 @@ uint8_t gn_packing_alpha(enum gn_packing packing, const uint8_t *level, uint32_t
     }
 }
 
+/* Said by the block itself: most are so where a picture is. */
+static bool is_opaque_block(enum gn_packing packing, const uint8_t *block) {
+    if (packing == GN_PACKING_ETC2_RGBA1) return block[3] & 2;
+    return block[0] == 255 && block[1] >> 4 == 0;
+}
+
 bool gn_packing_has_alpha(enum gn_packing packing, const uint8_t *level, const uint32_t px[2]) {
     if (packing != GN_PACKING_RGBA8 && packing != GN_PACKING_ETC2_RGBA1 &&
         packing != GN_PACKING_ETC2_RGBA)
         return false;
-    for (uint32_t y = 0; y < px[1]; y++)
-        for (uint32_t x = 0; x < px[0]; x++)
-            if (gn_packing_alpha(packing, level, px[0], x, y) != 255) return true;
+    const uint64_t units = gn_packing_row_bytes(packing, px[0]) / unit_bytes[packing] *
+                           gn_packing_rows(packing, px[1]);
+    if (packing == GN_PACKING_RGBA8) {
+        for (uint64_t i = 0; i < units; i++)
+            if (level[4 * i + 3] != 255) return true;
+        return false;
+    }
+    const uint64_t blocks_wide = gn_packing_row_bytes(packing, px[0]) / unit_bytes[packing];
+    for (uint64_t i = 0; i < units; i++) {
+        if (is_opaque_block(packing, level + i * unit_bytes[packing])) continue;
+        const uint32_t x0 = (uint32_t)(4 * (i % blocks_wide)),
+                       y0 = (uint32_t)(4 * (i / blocks_wide));
+        for (uint32_t y = y0; y < px[1] && y < y0 + 4; y++)
+            for (uint32_t x = x0; x < px[0] && x < x0 + 4; x++)
+                if (gn_packing_alpha(packing, level, px[0], x, y) != 255) return true;
+    }
     return false;
 }

@@ -231,6 +231,8 @@ static void choose_times(const struct gn_pose *pose, int64_t period_ns, int cell
         if (!plays_clip(pose, c)) continue;
         for (uint32_t i = 0; i < clip->channel_count; i++) {
             const struct gn_channel *channel = &animation->channels[clip->first_channel + i];
+            if (channel->path == GN_ANIM_RECORD && !gn_channel_hides(pose->scene, channel))
+                continue; /* nothing moves by it */
             for (uint32_t k = 0; k < channel->key_count; k++) {
                 const int cell = (int)((double)channel->times_s[k] / cell_s);
                 if (cell >= 0 && cell < cells && times[cell] < 0)

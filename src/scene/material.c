@@ -34,7 +34,8 @@ bool gn_material_is_blended(const struct gn_material *m) {
 
 bool gn_material_is_clear(const struct gn_material *m) {
     return m->alpha == GN_ALPHA_BLEND ||
-           (m->transmission > 0.5f && m->textures[GN_TEXTURE_TRANSMISSION].texture < 0);
+           (m->transmission > 0.5f && !(m->moves & GN_MOVES_TRANSMISSION) &&
+            m->textures[GN_TEXTURE_TRANSMISSION].texture < 0);
 }
 
 bool gn_material_is_tinted(const struct gn_material *m) {

@@ -53,3 +53,10 @@ void gn_channel_sample(const struct gn_channel *channel, double time_s, float *o
     }
     if (rotates) glm_quat_normalize(out);
 }
+
+/* Records overlap nowhere, so a channel of another thing, whose node is 0, has not that of node 0.
+ */
+bool gn_channel_hides(const struct gn_scene *scene, const struct gn_channel *channel) {
+    return channel->path == GN_ANIM_RECORD &&
+           scene->nodes[channel->node].record == channel->record + 1;
+}

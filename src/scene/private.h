@@ -428,6 +428,8 @@ void gn_material_init(struct gn_material *material);
 
 /* pose_anim.c: the value of a channel at a time, its components. */
 void gn_channel_sample(const struct gn_channel *channel, double time_s, float *out);
+/* It hides and shows its node. */
+bool gn_channel_hides(const struct gn_scene *scene, const struct gn_channel *channel);
 
 /* deform.c: of the upper 3x3; returns the determinant */
 double gn_cofactor(mat4 m, mat3 out);

@@ -5,6 +5,8 @@
 
 #define FLOATS(record, field) (offsetof(struct gn_##record##_record, field) / sizeof(float))
 
+#define UV_MOST 1e6f /* of offset, scale and rotation of a texture that clips move */
+
 static const struct gn_property properties[] = {
 #define GN_X(THING, path, record, field, components, moves, least, most)                           \
     {GN_THING_##THING, path, FLOATS(record, field), components, moves, least, most},
@@ -44,8 +46,8 @@ static bool find_transform(const char *pointer, struct gn_property *out) {
             out->first +=
                 FLOATS(material, uv) + slot * (sizeof(struct gn_uv_record) / sizeof(float));
             out->moves = GN_MOVES_UV;
-            out->least = -1e6f;
-            out->most = 1e6f;
+            out->least = -UV_MOST;
+            out->most = UV_MOST;
             return true;
         }
     }
@@ -122,6 +124,15 @@ void gn_uv_make(const struct gn_uv_record *r, float m[6]) {
     for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
 }
 
+static void make_moved_uv(const struct gn_uv_record *r, float uv_from_uv[6]) {
+    struct gn_uv_record within = {.rotation_rad = clamp(r->rotation_rad, -UV_MOST, UV_MOST)};
+    for (int k = 0; k < 2; k++) {
+        within.offset[k] = clamp(r->offset[k], -UV_MOST, UV_MOST);
+        within.scale[k] = clamp(r->scale[k], -UV_MOST, UV_MOST);
+    }
+    gn_uv_make(&within, uv_from_uv);
+}
+
 static void make_base(const struct gn_material_record *r, struct gn_material *m) {
     for (int k = 0; k < 3; k++)
         m->base_color[k] =
@@ -146,5 +157,5 @@ void gn_material_make(const struct gn_material_record *r, struct gn_material *m)
     if (moves & GN_MOVES_TRANSMISSION) m->transmission = clamp(r->transmission, 0, 1);
     if (moves & (GN_MOVES_BASE | GN_MOVES_TRANSMISSION)) make_base(r, m);
     for (int slot = 0; moves & GN_MOVES_UV && slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        gn_uv_make(&r->uv[slot], m->textures[slot].uv_from_uv);
+        make_moved_uv(&r->uv[slot], m->textures[slot].uv_from_uv);
 }

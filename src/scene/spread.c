@@ -58,7 +58,7 @@ bool gn_scene_add_posed_spreads(struct gn_gltf *g) {
     const struct gn_scene_animation *animation = &scene->animation;
     uint32_t most;
     const uint64_t vertices = count_vertices(scene, &most);
-    if (vertices == 0) return true;
+    if (vertices == 0 || most > gn_gltf_room(g) / sizeof(struct posed)) return true;
     struct posed *posed = gn_gltf_alloc(g, &g->memory.step, most, sizeof *posed);
     if (!posed) return false;
     struct gn_pose pose;

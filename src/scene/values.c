@@ -5,6 +5,7 @@
 
 #include "core/arena.h"
 #include "core/hash.h"
+#include "scene/private.h"
 #include "scene/property.h"
 
 /* ---- once ---- */
@@ -83,8 +84,7 @@ void gn_values_reset(struct gn_values *v, const struct gn_pose *pose, bool fades
 void gn_values_mark(struct gn_values *v, const struct gn_pose *pose,
                     const struct gn_channel *channel) {
     v->moves = true;
-    for (uint32_t i = 0; v->flickers && i < pose->scene->node_count; i++)
-        v->flickers[i] |= pose->scene->nodes[i].record == channel->record + 1;
+    if (v->flickers && gn_channel_hides(pose->scene, channel)) v->flickers[channel->node] = true;
 }
 
 void gn_values_choose(struct gn_values *v, const struct gn_pose *pose) {
@@ -94,8 +94,9 @@ void gn_values_choose(struct gn_values *v, const struct gn_pose *pose) {
     }
 }
 
-/* Holes, or an alpha that casts. */
+/* Holes, or an alpha that casts; what is transmitted depends on how much of it is metal. */
 static bool has_cut(const struct gn_material *m) {
+    if (gn_material_is_transmissive(m)) return m->moves & (GN_MOVES_CUT | GN_MOVES_METAL);
     return m->moves & GN_MOVES_CUT && (m->alpha == GN_ALPHA_MASK || gn_material_is_blended(m));
 }
 
@@ -157,6 +158,9 @@ uint64_t gn_values_hash(const struct gn_pose *pose, const struct gn_item *item, 
     hash = gn_hash(hash, &m->alpha_cutoff, sizeof m->alpha_cutoff);
     hash = gn_hash(hash, &m->transmission, sizeof m->transmission);
     hash = gn_hash(hash, &m->metalness, sizeof m->metalness);
-    return gn_hash(hash, m->textures[GN_TEXTURE_BASE].uv_from_uv,
-                   sizeof m->textures[GN_TEXTURE_BASE].uv_from_uv);
+    static const int slots[] = {GN_TEXTURE_BASE, GN_TEXTURE_TRANSMISSION};
+    for (int i = 0; i < 2; i++)
+        hash = gn_hash(hash, m->textures[slots[i]].uv_from_uv,
+                       sizeof m->textures[slots[i]].uv_from_uv);
+    return hash;
 }

@@ -171,9 +171,9 @@ static char *run_import(const char *path, const struct gn_scene_limits *limits, 
 
 /* ---- kept output ---- */
 
-/* Followed by a hash of it. */
+/* Followed by a hash of it. At most 128 MB in all: a card of a board is small. */
 static const struct gn_kept_kind kept_kind = {
-    .prefix = "draco-", .suffix = ".glb", .files_max = 16, .bytes_max = 64 << 20};
+    .prefix = "draco-", .suffix = ".glb", .files_max = 4, .bytes_max = 32 << 20};
 
 /* Of a .glb that names no other file, so that its bytes are all that its output is made of, and of
  * the program that makes it. */
@@ -183,16 +183,21 @@ static bool find_kept(const char *path, uint64_t file_mb, char out[GN_KEPT_PATH]
     struct stat made_by;
     struct gn_bytes file = {0};
     struct gn_err unused = {0};
-    if (!find_program(program, sizeof program) || stat(program, &made_by) < 0) return false;
-    if (!gn_file_read(path, (size_t)file_mb << 20, &file, &unused)) return false;
+    bool found = false;
+    if (!gn_model_is_gltf(path) || !find_program(program, sizeof program) ||
+        stat(program, &made_by) < 0 ||
+        !gn_file_read(path, file_mb < SIZE_MAX >> 20 ? (size_t)file_mb << 20 : SIZE_MAX, &file,
+                      &unused))
+        return false;
     const bool alone = file.size > sizeof magic && memcmp(file.data, magic, 4) == 0 &&
                        !memmem(file.data, file.size, uri, sizeof uri - 1);
-    const int64_t of_program[] = {made_by.st_size, made_by.st_mtim.tv_sec, made_by.st_mtim.tv_nsec};
-    const uint64_t hash =
-        gn_hash(gn_hash(GN_HASH_INIT, of_program, sizeof of_program), file.data, file.size);
-    const bool ok = alone && gn_kept_path(&kept_kind, hash, file.size, out);
+    if (alone) {
+        const int64_t by[] = {made_by.st_size, made_by.st_mtim.tv_sec, made_by.st_mtim.tv_nsec};
+        const uint64_t hash = gn_hash(gn_hash(GN_HASH_INIT, by, sizeof by), file.data, file.size);
+        found = gn_kept_path(&kept_kind, hash, file.size, out);
+    }
     gn_bytes_finish(&file);
-    return ok;
+    return found;
 }
 
 static struct gn_scene *load_kept(const char *path, const char *kept,

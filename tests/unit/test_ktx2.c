@@ -168,6 +168,22 @@ static void test_larger_levels_are_skipped(void **state) {
     gn_maker_finish(&maker);
 }
 
+static void test_without_a_smaller_level_it_is_said(void **state) {
+    (void)state;
+    add_image(gn_maker_ktx2_etc2(64, 32, 1, GN_KTX2_PLAIN, 255));
+    use_source();
+    struct gn_made glb = gn_maker_glb(&maker);
+    const struct gn_scene_limits limits = {.texture_px = 20};
+    struct gn_scene *scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+    assert_non_null(scene);
+    assert_int_equal(scene->pictures.images[0].width_px, 64);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.text[0], "images[0]: 64x32 pixels, and no smaller level"));
+    gn_scene_destroy(scene);
+    free(glb.data);
+    gn_maker_finish(&maker);
+}
+
 static void test_larger_pictures_are_halved(void **state) {
     (void)state;
     uint8_t rgba[12 * 6 * 4];
@@ -257,6 +273,7 @@ int main(void) {
         cmocka_unit_test(test_basis_falls_back_to_the_source),
         cmocka_unit_test(test_basis_alone_is_refused_where_it_is_required),
         cmocka_unit_test_setup(test_larger_levels_are_skipped, setup_textured),
+        cmocka_unit_test_setup(test_without_a_smaller_level_it_is_said, setup_textured),
         cmocka_unit_test_setup(test_larger_pictures_are_halved, setup_textured),
         cmocka_unit_test(test_broken_files_cost_a_warning),
         cmocka_unit_test_setup(test_levels_are_within_memory_mb, setup_textured),

@@ -133,6 +133,30 @@ static void test_programs_are_those_of_all_that_a_material_may_become(void **sta
     assert_near(pose.materials[0].roughness, 1);
 }
 
+/* What lets light through casts as much as it is metal, and so its shadow moves with that; glass
+ * that becomes opaque casts. */
+static void test_a_shadow_follows_what_is_transmitted(void **state) {
+    (void)state;
+    ANIMATE("/materials/0/pbrMetallicRoughness/metallicFactor", "SCALAR", "LINEAR", 0, 1);
+    ANIMATE("/materials/1/extensions/KHR_materials_transmission/transmissionFactor", "SCALAR",
+            "LINEAR", 1, 0);
+    gn_maker_set(&maker, "materials",
+                 "[{'pbrMetallicRoughness':{'metallicFactor':0},'extensions':{"
+                 "'KHR_materials_transmission':{'transmissionFactor':0.4}}},"
+                 "{'extensions':{'KHR_materials_transmission':{'transmissionFactor':1}}},"
+                 "{'extensions':{'KHR_materials_transmission':{'transmissionFactor':1}}}]");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}]");
+    load(GN_POSE_DEFAULT);
+    assert_false(gn_material_is_clear(&scene->materials[1]));
+    assert_true(gn_material_is_clear(&scene->materials[2]));
+    assert_true(pose.items[0].moves);
+    step(0);
+    const uint64_t before = pose.items[0].hash;
+    step(1);
+    assert_true(pose.items[0].hash != before);
+}
+
 static void test_a_hidden_node_hides_what_is_below_it(void **state) {
     (void)state;
     ANIMATE("/nodes/0/extensions/KHR_node_visibility/visible", "SCALAR", "STEP", 1, 0);
@@ -207,7 +231,9 @@ static void test_what_cannot_be_played_is_named(void **state) {
         LIGHT("name"),
         "/cameras/1/perspective/yfov",
         "/extensions/KHR_lights_punctual/lights/1/intensity",
-        "/materials/1/pbrMetallicRoughness/metallicFactor", /* a glossy one has none */
+        "/materials/1/pbrMetallicRoughness/metallicFactor", /* a glossy one has none, */
+        "/materials/1/emissiveTexture/extensions/KHR_texture_transform/rotation", /* or others */
+        "/materials/1/extensions/KHR_materials_transmission/transmissionFactor",
         "/materials/00/emissiveFactor",
         "/materials/0/emissiveFactor/0"};
     enum { COUNT = sizeof pointers / sizeof *pointers };
@@ -240,6 +266,7 @@ int main(void) {
         TEST(test_all_lights_of_a_definition_move_and_rest_as_in_the_file),
         TEST(test_step_and_cubic),
         TEST(test_programs_are_those_of_all_that_a_material_may_become),
+        TEST(test_a_shadow_follows_what_is_transmitted),
         TEST(test_a_hidden_node_hides_what_is_below_it),
         TEST(test_a_node_that_is_not_visible_is_not_posed_as_such),
         TEST(test_a_fade_mixes_values),

@@ -84,7 +84,7 @@ static void read_property(struct gn_gltf *g, const struct gn_at *target, const c
         out->pointer = pointer;
         out->path = GN_ANIM_RECORD;
         out->record = g->to_scene.record[out->property.thing][index] - 1 + out->property.first;
-        out->node = 0;
+        out->node = out->property.thing == GN_THING_NODE ? g->to_scene.node[index] : 0;
     } else if (!g->failed) {
         g->is_missing[GN_MISSING_POINTERS] = true;
         gn_gltf_warn(g, target, "animation of '%.100s' is not supported; not played",

@@ -96,8 +96,9 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_
 
 /* KTX2 whose levels or blocks go to the GPU as they are, or any picture as pixels; *basis: it
  * failed since it is Basis Universal's. */
-static bool take_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_scale_kind kind,
-                       struct gn_image *image, bool *basis, struct gn_err *err) {
+static bool take_image(struct gn_gltf *g, const struct gn_at *at, const struct gn_blob *blob,
+                       enum gn_scale_kind kind, struct gn_image *image, bool *basis,
+                       struct gn_err *err) {
     struct gn_ktx2 ktx2;
     if (format_of(blob->data, blob->size) != &FORMATS[KTX2])
         return decode_image(g, blob, kind, image, err);
@@ -106,7 +107,14 @@ static bool take_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_sc
     if (!known) return false;
     if (ktx2.level_count == 1 && ktx2.packing == GN_PACKING_RGBA8)
         return decode_image(g, blob, kind, image, err);
-    return gn_gltf_levels(g, blob, &ktx2, image, err);
+    if (!gn_gltf_levels(g, blob, &ktx2, image, err)) return false;
+    const uint32_t most = g->limits.texture_px;
+    if (most > 0 && (image->width_px > most || image->height_px > most))
+        gn_gltf_warn(g, at,
+                     "%" PRIu32 "x%" PRIu32 " pixels, and no smaller level; larger than the limit "
+                     "on textures of %" PRIu32,
+                     image->width_px, image->height_px, most);
+    return true;
 }
 
 /* The source of an image: bytes, or an open file of which only the identity is known. */
@@ -191,7 +199,7 @@ static int32_t image_at(struct gn_gltf *g, int32_t index, int32_t other, enum gn
             g->to_scene.image[index] = g->to_scene.image[first];
             gn_fail(&err, "the same picture as images[%zu]", first);
         } else if (read_source(g, &source, &err) &&
-                   take_image(g, &source.blob, kind, &pictures->images[pictures->image_count],
+                   take_image(g, &at, &source.blob, kind, &pictures->images[pictures->image_count],
                               &basis, &err))
             g->to_scene.image[index] = (int32_t)pictures->image_count++;
         if (basis) g->to_scene.image[index] = BASIS;

@@ -14,8 +14,9 @@ size_t gn_gltf_room(const struct gn_gltf *g) {
     return used < limit ? (size_t)(limit - used) : 0;
 }
 
-static void note_most(struct gn_gltf *g) {
-    const size_t used = (size_t)used_bytes(g);
+/* With so many more for a while. */
+static void note_most(struct gn_gltf *g, uint64_t more) {
+    const size_t used = (size_t)(used_bytes(g) + more);
     if (used > g->memory.most_bytes) g->memory.most_bytes = used;
 }
 
@@ -28,7 +29,7 @@ void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, s
     if (!memory)
         gn_gltf_fail(g, NULL, "out of memory, or over the limit memory_mb=%" PRIu64,
                      g->limits.memory_mb);
-    note_most(g);
+    note_most(g, 0);
     return memory;
 }
 
@@ -37,7 +38,7 @@ bool gn_gltf_count(struct gn_gltf *g, uint64_t bytes) {
         return gn_gltf_fail(g, NULL, "out of memory, or over the limit memory_mb=%" PRIu64,
                             g->limits.memory_mb);
     g->memory.other_bytes += bytes;
-    note_most(g);
+    note_most(g, 0);
     return !g->failed;
 }
 
@@ -75,6 +76,7 @@ bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
     if (g->damaged_work > g->limits.texels)
         return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
                        g->limits.texels);
+    note_most(g, need->kept + more);
     return true;
 }
 

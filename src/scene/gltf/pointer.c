@@ -14,7 +14,9 @@ static const struct {
               {"/nodes/", GN_THING_NODE}};
 
 /* A specular-glossiness material has others in their place. */
-#define NOT_GLOSSY (GN_MOVES_BASE | GN_MOVES_METAL | GN_MOVES_ROUGH | GN_MOVES_F0)
+#define NOT_GLOSSY                                                                                 \
+    (GN_MOVES_BASE | GN_MOVES_METAL | GN_MOVES_ROUGH | GN_MOVES_F0 | GN_MOVES_TRANSMISSION |       \
+     GN_MOVES_UV)
 
 /* Of the file. */
 static size_t count_things(struct gn_gltf *g, enum gn_thing thing) {
