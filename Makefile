@@ -377,13 +377,14 @@ check-tangents: $(B)/tests/tool_tangents
 	BUILD=$(B) tests/tangents/tangents.sh
 # What check leaves out: the long forms; what tests/timeouts leaves to accept, and the sanitizers
 # over the other kinds, in their quick forms; machines, and processors and GPUs that are not here.
+# (Mutants of scenes are many under the sanitizers alone: without, the same would pass again.)
 # What takes longest of these is left to full: under sanitizers the tests of pictures that tests/timeouts
 # names (SLOW), the long forms of LONGEST and of machines (more of the same: presses, replugs, frames, seconds
 # of rest), figures of bench that mean something, and four of the seven GPUs. All run at once, at the end:
 # machines wait a lot, and other tests have the processors then.
 PICTURES := $(filter tests/image/%,$(PROG_C))
 SLOW    := $(filter $(shell awk '$$2 ~ /^[0-9]/ { print "tests/image/" $$1 ".c" }' tests/timeouts),$(PICTURES))
-LONGEST := $(filter %/test_many_lights.c %/test_modes.c %/test_gesture_traces.c %/test_bombs.c %/test_storm.c,$(PROG_C))
+LONGEST := $(filter %/test_many_lights.c %/test_modes.c %/test_gesture_traces.c %/test_bombs.c %/test_storm.c %/test_large.c,$(PROG_C))
 LONG     = $(shell grep -lE 'gn_shot_full|GN_FULL' $(1))
 accept:
 	+$(SUB) WERROR=1 CONFIG=release all tests
@@ -395,7 +396,7 @@ accept:
 	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(LONGEST))) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(SLOW),$(PICTURES))) tests/check_hostile.sh \
 	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan,$(PROG_C))) \
-	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(LONGEST)),$(sort $(call programs,$(O)/release,$(call LONG,$(PROG_C))) \
+	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(LONGEST)),$(sort $(call programs,$(O)/release,$(call LONG,$(filter-out %/test_scene_mutations.c,$(PROG_C)))) \
 	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
 	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) \
 	    $(filter-out %/accept_bench.sh,$(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))) \

@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/thread.h"
 
 enum { UNPLUGGED_S = 5, STARTS_S = 2, GIVEN_UP_S = 60, STARTS_MAX = 10 };
 
@@ -27,7 +27,8 @@ struct gn_television {
     char wanted_connector[64];
     struct gn_television_state state;
     int64_t due_ns; /* of the next attempt; INT64_MAX: none */
-    int tries; /* attempts since something else was wanted, but for those without a television */
+    int tries;  /* attempts since something else was wanted, but for those without a television, */
+    int starts; /* and for those in a row in which it said that it starts */
 };
 
 int gn_television_pause_s(enum gn_cec_result result, bool on, int tries) {
@@ -42,18 +43,22 @@ static void take_report(struct gn_television *t, bool on, const struct gn_cec_re
     struct gn_television_state *s = &t->state;
     const bool is_told = r->result == GN_CEC_TOLD || r->result == GN_CEC_STARTS;
     const enum gn_television_wish did = on ? GN_TELEVISION_ON : GN_TELEVISION_STANDBY;
+    const bool moved = strcmp(t->connector, t->wanted_connector) != 0; /* meanwhile, */
     s->attempts++;
-    s->told = is_told ? did : GN_TELEVISION_ANY;
+    s->told = is_told && !moved ? did : GN_TELEVISION_ANY;
     snprintf(s->device, sizeof s->device, "%s", r->adapter.path);
     if (is_told) s->problem[0] = '\0';
-    if (s->wanted != did) return; /* meanwhile; that is due at once */
+    if (s->wanted != did || moved) return; /* or something else is wanted: that is due at once */
     snprintf(s->waits, sizeof s->waits, "%s", is_told ? "" : r->why);
     if (r->result == GN_CEC_UNPLUGGED) {
         t->tries = 0;
         s->problem[0] = '\0';
-    } else if (++t->tries >= GN_TELEVISION_TRIES && !is_told)
+    } else if (is_told)
+        t->tries = 0;
+    else if (++t->tries >= GN_TELEVISION_TRIES)
         memcpy(s->problem, s->waits, sizeof s->problem);
-    const int pause_s = gn_television_pause_s(r->result, on, t->tries);
+    t->starts = r->result == GN_CEC_STARTS ? t->starts + 1 : 0;
+    const int pause_s = gn_television_pause_s(r->result, on, t->starts > 0 ? t->starts : t->tries);
     t->due_ns = pause_s < 0 ? INT64_MAX : gn_clock_monotonic_ns() + pause_s * t->second_ns;
 }
 
@@ -84,7 +89,7 @@ static void leave(struct gn_television *t) {
 
 static void *run_thread(void *argument) {
     struct gn_television *t = argument;
-    setpriority(PRIO_PROCESS, 0, 10); /* on Linux of the thread alone */
+    gn_thread_lower_priority();
     pthread_mutex_lock(&t->mutex);
     while (!t->closed) {
         const struct timespec due = {t->due_ns / GN_NS_PER_S, t->due_ns % GN_NS_PER_S};
@@ -97,16 +102,6 @@ static void *run_thread(void *argument) {
     }
     leave(t);
     return NULL;
-}
-
-static int start_thread(struct gn_television *t) {
-    pthread_t thread;
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-    const int error = pthread_create(&thread, &attributes, run_thread, t);
-    pthread_attr_destroy(&attributes);
-    return error;
 }
 
 static void init_locks(struct gn_television *t) {
@@ -132,7 +127,7 @@ struct gn_television *gn_television_open(const struct gn_television_opts *opts,
     t->users = 2;
     init_locks(t);
     t->event = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    const int error = t->event < 0 ? errno : start_thread(t);
+    const int error = t->event < 0 ? errno : gn_thread_start_detached(run_thread, t);
     if (error == 0) return t;
     gn_fail(err, "cannot tell the television anything: %s", strerror(error));
     if (t->event >= 0) close(t->event);
@@ -153,7 +148,7 @@ void gn_television_set(struct gn_television *t, bool on, const char *connector) 
     if (t->state.wanted != wish || moves) {
         t->state.wanted = wish;
         t->state.waits[0] = '\0';
-        t->tries = 0;
+        t->tries = t->starts = 0;
         t->due_ns = t->state.told == wish ? INT64_MAX : 0; /* back before the thread saw it */
         pthread_cond_signal(&t->changed);
     }

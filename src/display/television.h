@@ -33,10 +33,12 @@ struct gn_television *gn_television_open(const struct gn_television_opts *opts, 
 void gn_television_set(struct gn_television *television, bool on, const char *connector);
 int gn_television_fd(const struct gn_television *television); /* readable after each attempt */
 void gn_television_read(struct gn_television *television, struct gn_television_state *state);
-/* Does not wait for an attempt that is under way. NULL is legal. */
+/* Does not wait for an attempt that is under way. But the end of the process does, while the kernel
+ * claims an address on the bus, which it does once and for as long as the polls take. NULL is
+ * legal. */
 void gn_television_close(struct gn_television *television);
 
-/* How long to wait after that many failures in a row, in seconds; -1: until something else is
+/* How long to wait after that many such results in a row, in seconds; -1: until something else is
  * wanted. Pure. */
 int gn_television_pause_s(enum gn_cec_result result, bool on, int tries);
 

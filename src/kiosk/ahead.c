@@ -341,6 +341,7 @@ static void show_wanted(struct gn_show *s, int scene) {
 
     /* the staged scene replaces the stage's */
     if (scene != scenes->shown) {
+        s->first.lost[0] = '\0'; /* another one was chosen */
         s->looks = scenes->looks;
         scenes->shown = scene;
         stage->frame_opts.view.orbit = (struct gn_orbit){0};

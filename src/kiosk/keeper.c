@@ -6,10 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/arena.h"
+#include "core/clock.h"
+#include "core/thread.h"
 
 struct gn_keeper {
     struct gn_state_files files;
@@ -18,6 +19,9 @@ struct gn_keeper {
     int older;
     pthread_t thread;
     bool runs;
+    pthread_mutex_t mutex; /* of the next three */
+    bool ended, more;      /* the thread takes nothing any more; it is to save `last`, too */
+    struct gn_state last;
     struct gn_state state; /* the thread's while it runs, as the rest */
     bool ok;
     struct gn_err err;
@@ -30,17 +34,11 @@ struct gn_keeper *gn_keeper_create(const struct gn_state_files *files, const cha
     k->older = older;
     snprintf(k->path, sizeof k->path, "%s", path);
     k->done = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    pthread_mutex_init(&k->mutex, NULL);
     if (k->done >= 0) return k;
     gn_fail(err, "%s: cannot wait for saves: %s", path, strerror(errno));
     free(k);
     return NULL;
-}
-
-void gn_keeper_destroy(struct gn_keeper *k) {
-    if (!k) return;
-    if (k->runs) pthread_join(k->thread, NULL);
-    close(k->done);
-    free(k);
 }
 
 int gn_keeper_fd(const struct gn_keeper *k) { return k->done; }
@@ -53,18 +51,30 @@ static void save(struct gn_keeper *k) {
     if (k->ok) k->older = 1 - k->older;
 }
 
-/* Frames have priority: the thread lowers its own, which on Linux does not affect the others. */
+/* Whether the thread goes on, with the last state. */
+static bool take_last(struct gn_keeper *k) {
+    pthread_mutex_lock(&k->mutex);
+    const bool more = k->more;
+    if (more) k->state = k->last;
+    k->more = false;
+    k->ended = !more;
+    pthread_mutex_unlock(&k->mutex);
+    return more;
+}
+
 static void *save_in_thread(void *user) {
     static const uint64_t one = 1;
     struct gn_keeper *k = user;
-    setpriority(PRIO_PROCESS, 0, 10);
-    save(k);
+    gn_thread_lower_priority();
+    do save(k);
+    while (take_last(k));
     if (write(k->done, &one, sizeof one) < 0) abort(); /* cannot overflow */
     return NULL;
 }
 
 bool gn_keeper_start(struct gn_keeper *k, const struct gn_state *state, struct gn_err *err) {
     k->state = *state;
+    k->ended = false;
     const int reason = pthread_create(&k->thread, NULL, save_in_thread, k);
     k->runs = reason == 0;
     return k->runs || gn_fail(err, "%s: no thread: %s", k->path, strerror(reason));
@@ -80,11 +90,34 @@ bool gn_keeper_take(struct gn_keeper *k, bool *ok, struct gn_err *err) {
     return true;
 }
 
-bool gn_keeper_finish(struct gn_keeper *k, const struct gn_state *state, struct gn_err *err) {
-    if (k->runs) pthread_join(k->thread, NULL);
-    k->runs = false;
-    k->state = *state;
-    save(k);
-    if (!k->ok) *err = k->err;
-    return k->ok;
+bool gn_keeper_start_last(struct gn_keeper *k, const struct gn_state *state, struct gn_err *err) {
+    if (k->runs) {
+        pthread_mutex_lock(&k->mutex);
+        const bool taken = !k->ended;
+        k->more = taken;
+        if (taken) k->last = *state;
+        pthread_mutex_unlock(&k->mutex);
+        if (taken) return true;
+        pthread_join(k->thread, NULL); /* it is about to end */
+    }
+    return gn_keeper_start(k, state, err);
+}
+
+bool gn_keeper_close(struct gn_keeper *k, int64_t wait_ns, struct gn_err *err) {
+    struct timespec until;
+    if (!k) return true;
+    clock_gettime(CLOCK_REALTIME, &until); /* that of pthread_timedjoin_np() */
+    const int64_t ns = until.tv_nsec + wait_ns % GN_NS_PER_S;
+    until.tv_sec += wait_ns / GN_NS_PER_S + ns / GN_NS_PER_S;
+    until.tv_nsec = ns % GN_NS_PER_S;
+    if (k->runs && pthread_timedjoin_np(k->thread, NULL, &until) != 0) {
+        pthread_detach(k->thread); /* which uses it until the process ends */
+        return gn_fail(err, "%s: still being written", k->path);
+    }
+    const bool ok = !k->runs || k->ok;
+    if (!ok) *err = k->err;
+    close(k->done);
+    pthread_mutex_destroy(&k->mutex);
+    free(k);
+    return ok;
 }

@@ -161,7 +161,9 @@ void gn_show_enter(struct gn_show *s) {
     s->stage.frame_opts = look->frame_opts;
     if (look->frame_opts.view.camera == before.view.camera)
         s->stage.frame_opts.view.orbit = before.view.orbit;
-    const int64_t now_ns = gn_loop_now_ns(s->loop);
+    /* the last frame is of the time at which it is seen, which may be later */
+    const int64_t loop_ns = gn_loop_now_ns(s->loop),
+                  now_ns = loop_ns > s->kiosk.seen_ns ? loop_ns : s->kiosk.seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, now_ns);
     choose_clips(s, &view, now_ns);
     gn_pose_choose_variant(&s->stage.pose, look->variant);

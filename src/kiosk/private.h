@@ -161,6 +161,7 @@ struct gn_show_memory {       /* of [kiosk] state */
     struct gn_keeper *keeper; /* NULL: nothing is saved */
     struct gn_watch done;
     struct gn_timer timer;     /* of the next save */
+    bool begun;                /* the first one */
     bool changed;              /* since the last one began, */
     int64_t saved_ns;          /* which was then; 0: none was */
     int64_t seen_ns, shown_ns; /* the last look; what is left of a second */
@@ -248,7 +249,8 @@ bool gn_show_try_other(struct gn_show *show, struct gn_options **options,
 /* Once the kiosk has begun it is saved; gn_show_remember() is called in each step. */
 void gn_show_open_memory(struct gn_show *show);
 void gn_show_remember(struct gn_show *show);
-void gn_show_close_memory(struct gn_show *show); /* the last save; legal when not open */
+void gn_show_end_memory(struct gn_show *show);   /* begins the last save; legal when not open */
+void gn_show_close_memory(struct gn_show *show); /* waits for it, but not for long */
 
 /* ---- reload.c: SIGHUP, ctl reload and ctl scene ---------------------------------------------- */
 

@@ -13,7 +13,8 @@
 #include "shadow/technique.h"
 
 static const int64_t SETTLE_NS = 5 * GN_NS_PER_S, REST_NS = 60 * GN_NS_PER_S,
-                     COUNTS_NS = 600 * GN_NS_PER_S;
+                     COUNTS_NS = 600 * GN_NS_PER_S,
+                     END_NS = GN_NS_PER_S / 2; /* for what the end still has to save */
 
 /* ---- the start ------------------------------------------------------------------------------- */
 
@@ -66,7 +67,7 @@ static void recall_scene(struct gn_show *s, struct gn_options *o) {
         gn_settings_source(&o->all[0], offsetof(struct gn_settings, scene.path));
     if (!found->scene[0] || source == GN_SOURCE_FLAG || o->is_lesson) return;
     if (!found->given) {
-        s->memory.scene = list_place(o, found->scene);
+        s->memory.scene = list_place(o, found->listed[0] ? found->listed : found->scene);
     } else if (access(found->scene, R_OK) == 0) {
         s->config.file = gn_show_put_file(o, found->scene);
         s->config.has_past = true; /* rollback: the configuration's */
@@ -137,9 +138,10 @@ bool gn_show_try_other(struct gn_show *s, struct gn_options **options,
 
 static void set_due(struct gn_show_memory *m, int64_t now_ns) {
     const int64_t settled_ns = now_ns + SETTLE_NS, rested_ns = m->saved_ns + REST_NS;
-    m->timer.due_ns = !m->changed                                 ? m->saved_ns + COUNTS_NS
-                      : m->saved_ns > 0 && rested_ns > settled_ns ? rested_ns
-                                                                  : settled_ns;
+    if (!m->changed)
+        m->timer.due_ns = now_ns + COUNTS_NS;
+    else
+        m->timer.due_ns = m->saved_ns > 0 && rested_ns > settled_ns ? rested_ns : settled_ns;
 }
 
 static void report_failure(struct gn_show *s, const struct gn_err *err) {
@@ -162,7 +164,8 @@ static void begin_save(void *user, int64_t now_ns) {
     struct gn_show *s = user;
     struct gn_show_memory *m = &s->memory;
     struct gn_err err = {0};
-    m->saved_ns = now_ns;
+    m->saved_ns = m->begun ? now_ns : 0; /* after the first there is no rest */
+    m->begun = true;
     m->changed = false;
     m->state.sequence++;
     if (!gn_keeper_start(m->keeper, &m->state, &err)) end_save(s, false, &err, now_ns);
@@ -189,12 +192,12 @@ void gn_show_open_memory(struct gn_show *s) {
         m->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = begin_save, .user = s};
         gn_loop_add_timer(s->loop, &m->timer);
         m->seen_ns = gn_loop_now_ns(s->loop);
-        m->changed = true; /* that it runs */
-        set_due(m, m->seen_ns);
+        m->timer.due_ns = m->seen_ns; /* that it runs: a crash in the first seconds counts, too */
         return;
     }
     if (m->keeper) gn_fail(&err, "%s: cannot wait for saves: %s", m->path, strerror(errno));
-    gn_keeper_destroy(m->keeper);
+    struct gn_err unused = {0};
+    gn_keeper_close(m->keeper, 0, &unused);
     m->keeper = NULL;
     report_failure(s, &err);
 }
@@ -229,7 +232,9 @@ static bool take_scene(struct gn_show *s) {
     const bool given = s->config.file;
     char before[PATH_MAX];
     if (s->first.lost[0]) return false;
-    const bool changes = given != state->given;
+    const char *listed = s->scenes.paths[s->kiosk.shown.scene];
+    const bool changes = take_text(listed ? listed : "", state->listed, sizeof state->listed) ||
+                         given != state->given;
     state->given = given;
     memcpy(before, state->scene, sizeof before);
     if (!take_text(path ? path : "", state->scene, sizeof state->scene)) return changes;
@@ -251,16 +256,20 @@ void gn_show_remember(struct gn_show *s) {
     if (!waits && !gn_keeper_is_busy(m->keeper)) set_due(m, now_ns);
 }
 
-void gn_show_close_memory(struct gn_show *s) {
+void gn_show_end_memory(struct gn_show *s) {
     struct gn_show_memory *m = &s->memory;
     struct gn_err err = {0};
     if (!m->keeper) return;
     gn_show_remember(s);
     m->state.runs = s->failed;
     m->state.sequence++;
-    if (!gn_keeper_finish(m->keeper, &m->state, &err)) report_failure(s, &err);
+    if (!gn_keeper_start_last(m->keeper, &m->state, &err)) report_failure(s, &err);
     gn_loop_remove(&m->done);
     gn_loop_remove_timer(&m->timer);
-    gn_keeper_destroy(m->keeper);
-    m->keeper = NULL;
+}
+
+void gn_show_close_memory(struct gn_show *s) {
+    struct gn_err err = {0};
+    if (!gn_keeper_close(s->memory.keeper, END_NS, &err)) report_failure(s, &err);
+    s->memory.keeper = NULL;
 }

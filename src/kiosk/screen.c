@@ -67,7 +67,7 @@ void gn_show_open_shaders(struct gn_show *s) {
     struct gn_err why = {0};
     gn_shader_files_close(&s->shaders);
     if (!gn_shader_files_open(&s->shaders, s->stage.settings->render.shaders, s->loop, &why))
-        gn_show_report_problem(s, GN_PROBLEM_SHADERS, why.text);
+        gn_show_report_problem(s, GN_PROBLEM_CONFIG, why.text); /* until a reload */
 }
 
 void gn_show_renew_shaders(struct gn_show *s) {

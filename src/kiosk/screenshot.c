@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/arena.h"
 #include "core/file.h"
+#include "core/thread.h"
 #include "display/message.h"
 #include "image/write.h"
 
@@ -156,14 +156,13 @@ static bool write_memory(int fd, const struct gn_bytes *png, struct gn_err *err)
     return true;
 }
 
-/* Frames have priority: the thread lowers its own, which on Linux does not affect the others. */
 static void *write_in_thread(void *user) {
     struct gn_screenshot *s = user;
     const bool on_side = s->turn_deg % 180 != 0;
     const uint32_t width = on_side ? s->height_px : s->width_px;
     const uint32_t height = on_side ? s->width_px : s->height_px;
     struct gn_bytes png = {0};
-    setpriority(PRIO_PROCESS, 0, 10);
+    gn_thread_lower_priority();
     uint8_t *rgb = gn_picture_alloc((size_t)width * height, 3, &s->err);
     for (uint32_t v = 0; rgb && v < height; v++)
         for (uint32_t u = 0; u < width; u++)

@@ -114,7 +114,7 @@ static bool run(struct gn_show *s, struct gn_err *err) {
 }
 
 void gn_show_close(struct gn_show *s) {
-    gn_show_close_memory(s);
+    gn_show_end_memory(s); /* its last save goes on meanwhile */
     gn_viewer_close(s);
     gn_show_close_control(s);
     gn_input_close(s->buttons.input);
@@ -134,6 +134,7 @@ void gn_show_close(struct gn_show *s) {
     gn_loop_close(s->loop);
     gn_changes_destroy(s->config.changes);
     gn_show_drop_options(s->config.options);
+    gn_show_close_memory(s);
     free(s);
 }
 

@@ -35,6 +35,7 @@ size_t gn_state_print(const struct gn_state *s, char out[GN_STATE_TEXT_MAX]) {
     used = add_text(out, used, "mode", s->mode);
     used = add_text(out, used, "scene", s->scene);
     used = add_text(out, used, "past", s->past);
+    used = add_text(out, used, "listed", s->listed);
     used = add_text(out, used, "given", s->given ? "yes" : "no");
     used = add_text(out, used, "runs", s->runs ? "yes" : "no");
     used = add_text(out, used, "boot", s->boot);
@@ -74,6 +75,7 @@ static void take_line(struct gn_state *s, const char *line, size_t length) {
     } texts[] = {{"mode", s->mode, sizeof s->mode},
                  {"scene", s->scene, sizeof s->scene},
                  {"past", s->past, sizeof s->past},
+                 {"listed", s->listed, sizeof s->listed},
                  {"boot", s->boot, sizeof s->boot}};
     const struct {
         const char *key;

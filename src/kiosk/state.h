@@ -19,6 +19,7 @@ struct gn_state {
     uint64_t sequence;                    /* of the save, from 1 */
     char mode[128];                       /* its name; "": none */
     char scene[PATH_MAX], past[PATH_MAX]; /* shown last, and the one before; "": the default one */
+    char listed[PATH_MAX];                /* the place in the list of next-scene, as its path */
     bool given;    /* `scene` is that of ctl scene, for all modes; else the configuration's */
     bool runs;     /* it was saved by a program that had not ended */
     char boot[40]; /* the machine's boot_id then */
@@ -28,7 +29,7 @@ struct gn_state {
 #undef X
     } counts;
 };
-enum { GN_STATE_TEXT_MAX = 2 * PATH_MAX + 1024 };
+enum { GN_STATE_TEXT_MAX = 3 * PATH_MAX + 1024 };
 
 /* One line for each key, the last a CRC-32 of those before it. A text that has a line end in it is
  * left out. Returns its length. */

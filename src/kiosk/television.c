@@ -1,4 +1,5 @@
 /* [schedule] off = cec: a television that goes into standby and comes back with the screen. */
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -42,7 +43,10 @@ void gn_show_open_television(struct gn_show *s) {
     snprintf(t->device, sizeof t->device, "%s", device);
     t->watch = (struct gn_watch){
         .fd = gn_television_fd(t->told), .events = EPOLLIN, .call = take_state, .user = s};
-    gn_loop_add(s->loop, &t->watch);
+    if (gn_loop_add(s->loop, &t->watch)) return;
+    gn_fail(&err, "cannot wait for the television: %s", strerror(errno));
+    gn_show_close_television(s);
+    gn_show_report_problem(s, GN_PROBLEM_TELEVISION, err.text);
 }
 
 /* The one that is configured, else the one in use: of "HDMI-A-1 1920x1080@60.00 atomic". False: it

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/arena.h"
+#include "core/thread.h"
 #include "stage/stage.h"
 
 /* Shared by loader and thread; the last one to leave frees it. The thread uses nothing else. */
@@ -38,28 +38,14 @@ void gn_loaded_destroy(struct gn_loaded *loaded) {
     free(loaded);
 }
 
-/* Frames have priority: a thread lowers its own, which on Linux does not affect the others. */
-static void lower_priority(void) { setpriority(PRIO_PROCESS, 0, 10); }
-
-static bool start_thread(void *(*run)(void *), void *argument, int *error) {
-    pthread_t thread;
-    pthread_attr_t attributes;
-    pthread_attr_init(&attributes);
-    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-    *error = pthread_create(&thread, &attributes, run, argument);
-    pthread_attr_destroy(&attributes);
-    return *error == 0;
-}
-
 static void *destroy_in_thread(void *argument) {
-    lower_priority();
+    gn_thread_lower_priority();
     gn_loaded_destroy(argument);
     return NULL;
 }
 
 void gn_loaded_drop(struct gn_loaded *loaded) {
-    int error;
-    if (loaded && (!loaded->scene || !start_thread(destroy_in_thread, loaded, &error)))
+    if (loaded && (!loaded->scene || gn_thread_start_detached(destroy_in_thread, loaded) != 0))
         gn_loaded_destroy(loaded);
 }
 
@@ -73,7 +59,7 @@ static void *load_in_thread(void *argument) {
     static const uint64_t one = 1;
     struct job *job = argument;
     struct gn_loaded *l = job->loaded;
-    lower_priority();
+    gn_thread_lower_priority();
     l->scene = gn_stage_read(job->path, &job->limits, &l->warnings, &l->err);
     if (l->scene) gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
     const int event = job->event; /* the job may be freed once it is done */
@@ -123,8 +109,8 @@ bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
     if (job->event < 0) {
         gn_fail(err, "no descriptor to load a scene: %s", strerror(errno));
     } else {
-        int error;
-        if (start_thread(load_in_thread, job, &error)) {
+        const int error = gn_thread_start_detached(load_in_thread, job);
+        if (error == 0) {
             loader->job = job;
             return true;
         }

@@ -4,9 +4,9 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 
 #include "core/arena.h"
+#include "core/thread.h"
 #include "image/write.h"
 #include "truth/cast.h"
 
@@ -182,7 +182,7 @@ static void note_progress(void *user, double share) {
 
 static void *cast_in_thread(void *user) {
     struct gn_rays *rays = user;
-    setpriority(PRIO_PROCESS, 0, 10); /* of this thread, and of those that it starts */
+    gn_thread_lower_priority(); /* and that of those that it starts */
     cast(rays, note_progress, rays);
     atomic_store(&rays->done, true);
     return NULL;

@@ -51,7 +51,7 @@ stop
 
 # a state that cannot be written
 printf '%s\n' '[render]' 'shadow = none' '[kiosk]' 'state = nowhere/state' > kiosk.ini
-start
+show -c kiosk.ini
 says 'problem: state: nowhere/state.new: cannot write: No such file.*' 'no folder for the state' 20
 if [ "${GN_FULL:-}" = 1 ]; then
     sleep 70 # another attempt

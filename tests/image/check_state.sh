@@ -21,6 +21,13 @@ config() {
         '[mode "C"]' 'shadow = none' '[kiosk]' "$@" > kiosk.ini
 }
 
+# newest: the generation that was saved last, as $file, $starts and $mode
+newest() {
+    file=state
+    [ ! -e state.2 ] || [ "$(sed -n 's/^sequence //p' state.2)" -lt "$(sed -n 's/^sequence //p' state)" ] || file=state.2
+    starts=$(sed -n 's/^starts //p' $file) mode=$(sed -n 's/^mode //p' $file)
+}
+
 # off by default: nothing is written
 config
 start
@@ -42,7 +49,8 @@ says 'scene: green.gltf' 'the next scene'
 says 'waits: no' 'the next scene'
 stop
 quiet 'the first start'
-grep -qx 'mode B' state || complain "the mode is not saved: $(cat state)"
+newest
+[ "$mode" = B ] || complain "the mode is not saved: $(cat $file)"
 start
 says 'mode: B' 'a second start'
 says 'scene: green.gltf' 'a second start'
@@ -134,22 +142,73 @@ says 'state.starts: 2' 'after a broken state'
 quiet 'after a broken state'
 stop
 
+# the place in the list of scenes, from a mode with a scene of its own
+rm -f state state.2
+cat > kiosk.ini << 'END'
+[scene]
+file = red.gltf
+file = green.gltf
+[render]
+shadow = none
+[mode "A"]
+exposure = 0
+[mode "Own"]
+file = blue.gltf
+[kiosk]
+state = state
+END
+cp green.gltf blue.gltf
+start
+says 'mode: A' 'a list'
+ctl next-scene > /dev/null
+says 'scene: green.gltf' 'the list goes on'
+says 'waits: no' 'it is shown'
+ctl mode Own > /dev/null
+says 'scene: blue.gltf' 'the scene of a mode'
+says 'waits: no' 'it is shown'
+stop
+start
+says 'mode: Own' 'a mode with a scene'
+ctl mode A > /dev/null
+says 'scene: green.gltf' 'the place in the list after a restart'
+stop
+
+# the first scene is missing, and another one is chosen
+rm -f state state.2
+mv red.gltf away.gltf
+start
+says 'problem: .*red.gltf.*' 'a missing first scene'
+ctl next-scene > /dev/null
+says 'scene: green.gltf' 'another scene'
+says 'waits: no' 'it is shown'
+stop
+newest
+grep -qx "scene green.gltf" $file || complain "the scene that was chosen is not saved: $(cat $file)"
+mv away.gltf red.gltf
+rm -f state state.2
+config 'state = state'
+start
+says 'mode: A' 'a new state'
+stop
+
 # killed at any moment of its last save: what it had read, or what it was to write
-newest() { # sets starts and mode to those of the newer generation
-    local file=state
-    [ "$(sed -n 's/^sequence //p' state.2)" -lt "$(sed -n 's/^sequence //p' state)" ] || file=state.2
-    starts=$(sed -n 's/^starts //p' $file) mode=$(sed -n 's/^mode //p' $file)
-}
 within=0 new=0
 newest
 for i in $(seq "$times"); do
-    before="$starts $mode"
+    before=$starts
     start
     says "state.starts: $((starts + 1))" "death $i"
+    for _ in $(seq 100); do # what it began with is saved at once
+        newest
+        [ "$starts" = "$before" ] || break
+        sleep 0.1
+    done
+    [ "$starts" = $((before + 1)) ] || complain "death $i: $starts starts are saved, after $before"
     quiet "death $i"
+    before="$starts $mode"
     grep -qx "mode: $mode" status || complain "death $i: $(grep ^mode: status), not $mode"
     next=$([ "$mode" = A ] && echo B || echo A)
-    after="$((starts + 1)) $next"
+    after="$starts $next"
     ctl mode $next > /dev/null
     kill -TERM "$kiosk"
     sleep "0.00$(printf %02d $((RANDOM % 100)))"

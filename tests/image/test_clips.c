@@ -107,6 +107,28 @@ static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
     gn_show_close(show);
 }
 
+/* What takes a mode's settings anew, as ctl set does, is no replay of the clip that plays: the last
+ * frame is of the time at which it is seen, which is later than now. */
+static void settings_that_change_start_no_clip_again(void **state) {
+    (void)state;
+    struct gn_show *show = open_show("[mode \"A\"]\nshadow = pcf\n"
+                                     "[kiosk]\ncaptions = no\nclip_fade = 5\n");
+    until_warm(show);
+    act(show, GN_ACTION_PLAY, "gull");
+    draw_frame(show);
+    show->clips_begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
+    show->kiosk.play.time_ns = GN_NS_PER_S;
+    draw_frame(show);
+    draw_frame(show);
+    assert_true(show->stage.pose.fade == 1 && show->stage.pose.over >= 0);
+    for (int i = 0; i < 20; i++) {
+        gn_show_enter(show);
+        draw_frame(show);
+        assert_true(show->stage.pose.fade == 1);
+    }
+    gn_show_close(show);
+}
+
 static int64_t clip_ns(const struct gn_show *show) {
     return gn_pose_clip_ns(&show->stage.pose.run, INT64_MAX,
                            show->stage.pose.time_ns - show->stage.pose.begun_ns);
@@ -141,6 +163,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clips_that_stand_draw_nothing),
         cmocka_unit_test(the_same_clip_anew_or_at_another_speed_fades),
+        cmocka_unit_test(settings_that_change_start_no_clip_again),
         cmocka_unit_test(a_mode_that_restarts_begins_its_clips),
     };
     return RUN(tests);

@@ -109,20 +109,46 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
     s.sequence = 9;
     assert_true(gn_keeper_start(keeper, &s, &err));
     s = (struct gn_state){.sequence = 10, .mode = "C"};
+    assert_true(gn_keeper_start_last(keeper, &s, &err)); /* while that is written */
     let_go();
     let_go();
-    assert_true(gn_keeper_finish(keeper, &s, &err));
+    assert_true(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
     assert_non_null(strstr(disk.text[1], "sequence 9\n"));
     assert_non_null(strstr(disk.text[0], "sequence 10\n"));
-    gn_keeper_destroy(keeper);
-    gn_keeper_destroy(NULL);
-    close(disk.pipe[0]);
-    close(disk.pipe[1]);
+    assert_true(gn_keeper_close(NULL, 0, &err));
+}
+
+static void the_end_waits_for_a_disk_but_not_for_long(void **state) {
+    (void)state;
+    struct gn_state s = {.sequence = 11};
+    struct gn_keeper *keeper = gn_keeper_create(&files, "s", 1, &err);
+    assert_true(gn_keeper_start_last(keeper, &s, &err));
+    let_go();
+    assert_true(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
+    assert_non_null(strstr(disk.text[1], "sequence 11\n"));
+
+    /* the file of a save that fails at the end is named */
+    keeper = gn_keeper_create(&files, "s", 1, &err);
+    disk.reason = EROFS;
+    assert_true(gn_keeper_start_last(keeper, &s, &err));
+    assert_false(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
+    assert_non_null(strstr(err.text, "s.new: cannot write: Read-only"));
+    disk.reason = 0;
+
+    /* it does not answer: the thread keeps what it works on */
+    err = (struct gn_err){0};
+    keeper = gn_keeper_create(&files, "s", 1, &err);
+    assert_true(gn_keeper_start_last(keeper, &s, &err));
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    assert_false(gn_keeper_close(keeper, GN_NS_PER_S / 20, &err));
+    assert_true(gn_clock_monotonic_ns() - begun_ns >= GN_NS_PER_S / 20);
+    assert_string_equal(err.text, "s: still being written");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_disk_that_does_not_answer_holds_nobody_up),
+        cmocka_unit_test(the_end_waits_for_a_disk_but_not_for_long),
     };
     return RUN(tests);
 }

@@ -277,6 +277,40 @@ static void at_another_connector_there_is_another_one(void **state) {
     close_television(t, fake);
 }
 
+/* The screen comes up at another connector in the middle of an attempt. */
+static void a_connector_that_comes_in_an_attempt_is_told_after_it(void **state) {
+    (void)state;
+    struct cec_fake *fake = cec_fake_new();
+    struct gn_television *t = open_television(fake);
+    struct gn_television_state s;
+    fake->delay_us = 50000;
+    gn_television_set(t, true, "");
+    usleep(20000);
+    gn_television_set(t, true, "HDMI-A-2");
+    WAIT(t, &s, s.attempts == 2 && s.told == GN_TELEVISION_ON);
+    assert_int_equal(cec_fake_count(fake, "40:04"), 2);
+    close_television(t, fake);
+}
+
+/* One that had no power for long hears it again, too. */
+static void one_that_starts_late_hears_it_again(void **state) {
+    (void)state;
+    struct cec_fake *fake = cec_fake_new();
+    struct gn_television *t = open_television(fake);
+    struct gn_television_state s;
+    fake->nacks = -1;
+    gn_television_set(t, true, NULL);
+    WAIT(t, &s, s.attempts >= 12);
+    cec_fake_lock();
+    fake->nacks = 0;
+    fake->starts = 2;
+    cec_fake_unlock();
+    WAIT(t, &s, s.told == GN_TELEVISION_ON && !s.waits[0]);
+    const uint64_t attempts = s.attempts;
+    WAIT(t, &s, s.attempts == attempts + 2);
+    close_television(t, fake);
+}
+
 static void it_closes_at_once_in_the_middle_of_an_attempt(void **state) {
     (void)state;
     struct cec_fake *fake = cec_fake_new();
@@ -307,6 +341,8 @@ int main(void) {
         cmocka_unit_test(an_adapter_that_comes_late_is_found),
         cmocka_unit_test(one_that_starts_hears_again_what_to_show),
         cmocka_unit_test(at_another_connector_there_is_another_one),
+        cmocka_unit_test(a_connector_that_comes_in_an_attempt_is_told_after_it),
+        cmocka_unit_test(one_that_starts_late_hears_it_again),
         cmocka_unit_test(it_closes_at_once_in_the_middle_of_an_attempt),
     };
     return RUN(tests);
