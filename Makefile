@@ -1,6 +1,6 @@
 # gnomon. `make help` says what there is. Non-recursive: sources are found, not listed; the goals
 # that may have to install packages first do that, and then call this file again with READY=1.
-VERSION := 0.1.0
+VERSION := 0.2.0
 CONFIG  ?= release
 O       ?= build
 PREFIX  ?= /usr/local

@@ -5,7 +5,7 @@
 . tests/script.sh
 unset XDG_RUNTIME_DIR
 cases=0 kiosks=0
-cp assets/sundial.glb "$folder/"
+cp assets/sundial.glb tests/image/kiosk-0.1.0.* "$folder/"
 cd "$folder" || exit 1
 
 cat > good.ini << 'END'
@@ -76,6 +76,10 @@ END
 lines=$(wc -l < good.ini)
 [ "$lines" -ge 60 ] || complain "only $lines lines"
 timeout 60 "$gnomon" show --check good.ini > out 2>&1 || complain "the good one: $(cat out)"
+
+# what 0.1.0 could read means the same still
+timeout 60 "$gnomon" show --check kiosk-0.1.0.ini > out 2> err || complain "of 0.1.0: $(cat err)"
+tail -n +2 out | cmp -s kiosk-0.1.0.txt - || complain "of 0.1.0, other than then: $(tail -n +2 out | diff kiosk-0.1.0.txt -)"
 
 # refused LINE KEY: bad.ini is refused by a line that names all of it
 refused() {
