@@ -478,7 +478,7 @@ deb: dist
 # the packages as a service, in a machine with systemd
 check-service: deb $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@SUITE='$(SUITE)' tests/run.sh BUILD=$(B) tests/board/service.guest
-check-deb:
+check-deb: dist
 	@O='$(O)' VERSION='$(VERSION)' tests/board/packages.sh
 
 -include $(shell find $(B)/obj -name '*.d' 2> /dev/null)
