@@ -67,14 +67,18 @@ cp assets/sundial.glb "$work/scene.glb"
 if [ "$(id -u)" != 0 ] || ! command -v mmdebstrap > /dev/null; then
     echo 'not installed anywhere: needs mmdebstrap, and root'
 elif [ "$suite-$arch" = "$codename-$own" ]; then
-    mmdebstrap --mode=root --variant=apt --quiet "$suite" "$root" /etc/apt/sources.list.d/debian.sources 2> "$work/log" ||
-        mmdebstrap --mode=root --variant=apt --quiet "$suite" "$root" 2> "$work/log" || { cat "$work/log" && exit 1; }
+    mmdebstrap --mode=root --variant=apt --skip=cleanup/apt --quiet "$suite" "$root" /etc/apt/sources.list.d/debian.sources 2> "$work/log" ||
+        mmdebstrap --mode=root --variant=apt --skip=cleanup/apt --quiet "$suite" "$root" 2> "$work/log" || { cat "$work/log" && exit 1; }
     mount -t proc proc "$root/proc" # systemd-tmpfiles does nothing without it
     cp "$first"/gnomon_*_"$arch".deb "$first"/gnomon-import_*_"$arch".deb "$work/kiosk.ini" "$work/scene.glb" "$root/root"
     cp -r board/debian/tests "$root/root/tests"
     inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive "$@"; }
-    inside sh -c 'apt-get -q -y install /root/gnomon_*.deb /root/gnomon-import_*.deb' > "$work/log" 2>&1 ||
-        { tail -n 20 "$work/log" && exit 1; }
+    installed_mb() { inside dpkg-query -W -f '${Installed-Size}\n' | awk '{ kb += $1 } END { printf "%.0f", kb / 1024 }'; }
+    before=$(installed_mb)
+    for packages in 'gnomon_*' 'gnomon-import_*'; do
+        inside sh -c "apt-get -q -y install /root/$packages.deb" > "$work/log" 2>&1 || { tail -n 20 "$work/log" && exit 1; }
+        echo "with $packages and all that it pulls in: $(installed_mb) MB on the disk, $before without"
+    done
     for test in $(sed -n 's/^Tests: //p' board/debian/tests/control | tr -d ,); do
         inside env AUTOPKGTEST_TMP=/tmp "/root/tests/$test" > "$work/log" 2>&1 ||
             { cat "$work/log" && complain "autopkgtest: $test"; }
