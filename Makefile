@@ -328,6 +328,9 @@ kinds    = $(filter $(patsubst %,tests/%/%,$(1)),$(PROG_C))
 LATER   := $(shell awk '$$2 ~ /^[0-9]/ && / accept/ { print $$1 }' tests/timeouts)
 quick    = $(foreach t,$(1),$(if $(filter $(LATER),$(notdir $t)),,$t))
 later    = $(foreach t,$(1),$(if $(filter $(LATER),$(notdir $t)),$t))
+# machines with systemd need packages: check-service
+SYSTEMD_GUESTS := $(shell grep -l '^\# systemd: yes' tests/board/*.guest)
+BARE_GUESTS := $(filter-out $(SYSTEMD_GUESTS),$(sort $(wildcard tests/board/*.guest)))
 SCRIPTS  = $(sort $(wildcard tests/check_*.sh tests/*/check_*.sh))
 SANITIZED := unit plan fuzz kms
 run: all
@@ -344,7 +347,7 @@ check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/an
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
 BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/television tests/tool_compare
 check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
-	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(filter-out %/service.guest,$(sort $(wildcard tests/board/*.guest))),tests/board/smoke.guest)
+	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(BARE_GUESTS),tests/board/smoke.guest)
 	$(if $(GN_FULL),+$(SUB) check-board-arm64)
 # Not built where the packages to build against cannot be had: the tests say so, and skip.
 ARM64_B := $(O)/aarch64-linux-gnu-$(CONFIG)
@@ -400,7 +403,7 @@ accept:
 	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
 	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) \
 	    $(filter-out %/accept_bench.sh,$(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))) \
-	    GN_FULL= tests/image/accept_bench.sh $(filter-out %/smoke.guest %/lab.guest %/service.guest,$(sort $(wildcard tests/board/*.guest))) \
+	    GN_FULL= tests/image/accept_bench.sh $(filter-out %/smoke.guest %/lab.guest,$(BARE_GUESTS)) \
 	    HOST_BUILD=$(O)/release BUILD=$(ARM64_B) ARCH=arm64 tests/board/smoke.guest ARCH= \
 	    BUILD=$(GPIOD2) SUITE=trixie tests/board/units.sh tests/board/buttons.guest SUITE= HOST_BUILD= \
 	    BUILD=$(GPUS_B) GPUS=pi4,g610,a618 tests/gpus/gpus.sh
@@ -477,7 +480,7 @@ deb: dist
 	@O='$(O)' VERSION='$(VERSION)' sh board/deb.sh
 # the packages as a service, in a machine with systemd
 check-service: deb $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
-	@SUITE='$(SUITE)' tests/run.sh BUILD=$(B) tests/board/service.guest
+	@SUITE='$(SUITE)' tests/run.sh BUILD=$(B) $(SYSTEMD_GUESTS)
 check-deb: dist
 	@O='$(O)' VERSION='$(VERSION)' tests/board/packages.sh
 

@@ -1,7 +1,8 @@
 #!/bin/busybox sh
 # shellcheck shell=dash
 # The machine's first program: the host's root, read-only over 9p, under a layer of memory, then the
-# test in it. No udevd, no systemd: a bare board; or, with gnomon.systemd on the kernel's line, both.
+# test in it. No udevd, no systemd: a bare board; or, with gnomon.systemd on the kernel's line, both, from
+# a disk (service-root.sh), whose changes go when the machine does.
 export PATH=/bin
 busybox mkdir -p /proc /sys /dev /lower /upper /new
 busybox mount -t proc proc /proc # where it finds itself
@@ -21,12 +22,18 @@ share() { # TAG FOLDER OPTIONS
 }
 
 load base
-# cache=loose: the host's files do not change while the test runs, and without a cache every page of
-# every program would be asked for again
-share root /lower ro,cache=loose
-mount -t tmpfs -o size=80% tmpfs /upper
-mkdir /upper/files /upper/work
-mount -t overlay -o lowerdir=/lower,upperdir=/upper/files,workdir=/upper/work overlay /new
+if grep -qw gnomon.systemd /proc/cmdline; then
+    load disk
+    while [ ! -b /dev/vda ]; do sleep 1; done
+    mount -t ext4 /dev/vda /new
+else
+    # cache=loose: the host's files do not change while the test runs, and without a cache every page of
+    # every program would be asked for again
+    share root /lower ro,cache=loose
+    mount -t tmpfs -o size=80% tmpfs /upper
+    mkdir /upper/files /upper/work
+    mount -t overlay -o lowerdir=/lower,upperdir=/upper/files,workdir=/upper/work overlay /new
+fi
 mkdir -p /new/proc /new/sys /new/dev /new/run /new/tmp /new/out
 
 # With systemd (a root of service-root.sh): it mounts the rest, and the test is a service of its.

@@ -61,6 +61,7 @@ cp "$build/tests/firstflip.so" "$build/tests/keyboard" "$build/tests/television"
 cp "$here/guest.sh" "$out/guest.sh"
 if [ -n "$systemd" ]; then
     mkdir "$out/debs"
+    cp board/wall.md "$out/"
     # shellcheck disable=SC1091
     cp "$(dirname "$build")/deb/${SUITE:-$(. /etc/os-release && echo "$VERSION_CODENAME")}"/gnomon{,-import}_*_amd64.deb "$out/debs/" || exit 1
 fi
@@ -114,8 +115,6 @@ machine+=(
     -kernel "$parts/vmlinuz" -initrd "$out/initrd"
     -append "console=$console quiet panic=-1 mitigations=off audit=0 vt.global_cursor_default=0 $systemd $(sed -n 's/^# kernel: //p' "$script") ${KERNEL_ARGS:-}"
     -serial "file:$out/console" -nic none
-    -fsdev "local,id=root,path=$root,security_model=none,readonly=on,multidevs=remap"
-    -device virtio-9p-pci,fsdev=root,mount_tag=root
     -fsdev "local,id=out,path=$out,security_model=none"
     -device virtio-9p-pci,fsdev=out,mount_tag=out
     -object rng-random,id=entropy,filename=/dev/urandom -device virtio-rng-pci,rng=entropy
@@ -125,6 +124,13 @@ machine+=(
     -device virtio-serial-pci
     -chardev "socket,id=qmp,path=$sockets/qmp" -device virtserialport,chardev=qmp,name=qmp
 )
+# shellcheck disable=SC2054
+if [ -n "$systemd" ]; then
+    machine+=(-drive "file=$root,format=raw,if=virtio,snapshot=on")
+else
+    machine+=(-fsdev "local,id=root,path=$root,security_model=none,readonly=on,multidevs=remap"
+        -device virtio-9p-pci,fsdev=root,mount_tag=root)
+fi
 for head in $(seq "$heads"); do
     # shellcheck disable=SC2054
     machine+=(

@@ -1,6 +1,6 @@
 #!/bin/sh
-# service-root.sh: the root of a virtual machine with systemd, of Debian SUITE (this machine's without it), made once by mmdebstrap
-# and kept in the user's cache; prints its name. gnomon is not installed in it: the test does that, without a network, so what the
+# service-root.sh: the disk of a virtual machine with systemd, of Debian SUITE (this machine's without it), made once by mmdebstrap
+# and kept in the user's cache (an image of ext4); prints its name. gnomon is not installed in it: the test does that, without a network, so what the
 # packages in build/deb/SUITE need has been downloaded. Exit status 77, with the reason on stderr, where it cannot be had.
 set -eu
 : "${O:=build}"
@@ -13,7 +13,7 @@ skip() {
     exit 77
 }
 [ "$(id -u)" = 0 ] || skip 'only root can make the root of a machine with systemd'
-command -v mmdebstrap > /dev/null || skip 'needs mmdebstrap: make deps'
+for tool in mmdebstrap mke2fs; do command -v $tool > /dev/null || skip "needs $tool: make deps"; done
 debs=$(find "$O/deb/$suite" -name 'gnomon*_amd64.deb' ! -name '*dbgsym*' 2> /dev/null)
 [ -n "$debs" ] || skip "no packages in $O/deb/$suite: SUITE=$suite make deb"
 
@@ -27,7 +27,7 @@ if [ ! -e "$root/.made" ]; then
     echo "board: making the root of $suite with systemd, once" >&2
     rm -rf "$root" && mkdir -p "$store"
     mmdebstrap --mode=root --variant=minbase --skip=cleanup/apt --quiet \
-        --include=systemd-sysv,udev,dbus,kmod,mawk,busybox-static,procps,kbd,ca-certificates \
+        --include=systemd-sysv,udev,dbus,kmod,mawk,busybox-static,procps,kbd,ca-certificates,sudo \
         "$suite" "$root" "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $suite main" \
         > "$store/service.log" 2>&1 || { tail -n 5 "$store/service.log" >&2 && skip "mmdebstrap failed for $suite"; }
     mkdir "$root/root/debs"
@@ -40,5 +40,10 @@ if [ ! -e "$root/.made" ]; then
     rm -rf "$root/root/debs"
     touch "$root/.made"
 fi
-touch "$root"
-echo "$root"
+if [ ! -e "$root.img" ]; then
+    rm -f "$root.new"
+    mke2fs -q -t ext4 -d "$root" "$root.new" 4G > /dev/null || skip "mke2fs failed for $root"
+    mv "$root.new" "$root.img"
+fi
+touch "$root" "$root.img"
+echo "$root.img"
