@@ -33,7 +33,12 @@ struct gn_screen_opts {               /* zero means the default written beside *
     unsigned max_fps;    /* the mode's rate */
     bool unencoded;      /* no sRGB encoding in the window's framebuffer */
     bool legacy;         /* legacy page flips even if atomic is available */
-    int64_t again_ns;    /* interval of flips while nothing changes; 10 s */
+    enum gn_screen_range {
+        GN_RANGE_AUTO, /* as the driver and the monitor agree */
+        GN_RANGE_FULL,
+        GN_RANGE_LIMITED, /* 16 to 235, as televisions have it */
+    } range;              /* of the signal's levels; the driver's */
+    int64_t again_ns;     /* interval of flips while nothing changes; 10 s */
 };
 
 /* Counters since the screen was opened. */
@@ -65,7 +70,9 @@ struct gn_screen {
     uint8_t *copy_to;   /* not NULL between begin and present: draw off screen and copy here as
                            XRGB8888, top row first */
     size_t copy_stride; /* bytes */
-    int64_t period_ns;  /* refresh interval */
+    enum gn_screen_range range; /* of its levels, as it was set; automatic: nobody set it here */
+    bool lacks_range;           /* one is asked for that its connector cannot be set to */
+    int64_t period_ns;          /* refresh interval */
     int64_t
         seen_ns; /* monotonic: when a frame begun now becomes visible, as of the last dispatch */
     struct gn_screen_counts counts;

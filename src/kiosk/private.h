@@ -45,6 +45,7 @@ struct gn_show_context {
     struct gn_screen_opts screen_opts;
     uint32_t generation; /* of the context that stage.gl lives in; 0: none */
     bool message;        /* the screen shows a text in place of pictures */
+    bool lacks_range;    /* and a problem says so */
     bool unencoded;      /* as frames are drawn now */
     uint32_t msaa;
     uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
@@ -115,6 +116,7 @@ enum gn_problem {
     GN_PROBLEM_SHADERS,    /* of --shaders; until they can be used */
     GN_PROBLEM_STATE,      /* until it is saved */
     GN_PROBLEM_TELEVISION, /* until it answers */
+    GN_PROBLEM_RANGE,      /* until a connector has it, or none is asked for */
     GN_PROBLEM_COUNT,
 };
 struct gn_show_problems {

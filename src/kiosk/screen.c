@@ -34,6 +34,7 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
         .max_fps = (unsigned)o->display.max_fps,
         .unencoded = !srgb,
         .legacy = o->display.legacy,
+        .range = (enum gn_screen_range)o->display.range,
         .again_ns = again_ns < 10 * GN_NS_PER_S ? again_ns : 0,
     };
     gn_wake_begin(&wake, o);
@@ -104,8 +105,26 @@ bool gn_show_is_stale(const struct gn_show *s) {
     return screen->lost || (screen->has_context && screen->generation != s->context.generation);
 }
 
+static void tell_range(struct gn_show *s) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    const bool lacks = screen->lacks_range;
+    char text[160];
+    if (s->context.lacks_range == lacks) return;
+    s->context.lacks_range = lacks;
+    if (!lacks) {
+        gn_show_cure_problem(s, GN_PROBLEM_RANGE);
+        return;
+    }
+    snprintf(text, sizeof text,
+             "[display] range: %.*s has no property \"Broadcast RGB\": its levels stay as the "
+             "driver has them",
+             (int)strcspn(screen->what, " "), screen->what);
+    gn_show_report_problem(s, GN_PROBLEM_RANGE, text);
+}
+
 bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
+    tell_range(s);
     if (screen->lost) {
         struct gn_wake wake = {0};
         gn_show_stop_gl(s);

@@ -157,6 +157,8 @@ GN_OPTION(.name = "rotate", .section = "display", .kind = GN_KIND_CHOICE, .choic
           .fallback = "0", .help = "rotate the picture clockwise", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.rotate_deg))
 GN_OPTION(.name = "max-fps", .section = "display", .kind = GN_KIND_INT, .min = 1, .max = 1000, .value = "N", .unit = "frames per second",
           .help = "limit on the frame rate; without it, the display's refresh rate", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_fps))
+GN_OPTION(.name = "range", .section = "display", .kind = GN_KIND_CHOICE, .choices = ranges, .value = "WHAT", .fallback = "auto",
+          .help = "levels of the signal to the monitor: as the driver chooses, full, or limited to 16 to 235, as televisions have them", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.range))
 GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
           .help = "use legacy KMS instead of atomic", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
 /* what a kiosk does by itself */

@@ -146,6 +146,7 @@ struct gn_display_settings {
     const char *modeline;
     int rotate_deg, max_fps; /* 0: as fast as the display */
     bool legacy;
+    int range; /* enum gn_screen_range */
 };
 struct gn_kiosk_settings {
     int idle;        /* enum gn_idle */

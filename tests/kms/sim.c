@@ -105,6 +105,8 @@ static void start_card(struct sim_card *card) {
         card->state.planes[i].rotation = DRM_MODE_ROTATE_0;
     }
     memcpy(card->known, card->plugged, sizeof card->known);
+    for (int i = 0; i < SIM_CONNECTORS && card->traits.range; i++)
+        card->state.connectors[i].range = SIM_RANGE_LIMITED; /* as somebody has left it */
     if (card->traits.console) sim_set_console(card, SIM_CONSOLE);
 }
 
@@ -117,6 +119,8 @@ void sim_add_card(int n, const char *path, const struct sim_traits *traits) {
     start_card(card);
     sim.uevent = true;
 }
+
+uint64_t sim_range(int n) { return sim.cards[n].state.connectors[0].range; }
 
 void sim_set_gpu(const struct sim_gpu *gpu) { sim.gpu = *gpu; }
 

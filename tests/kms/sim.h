@@ -55,6 +55,7 @@ struct sim_traits { /* of a card; zero is a normal one */
     bool rotation; /* planes can rotate, and the console leaves one rotated */
     bool overlays; /* other programs leave an overlay */
     bool console;  /* initially shows the text console */
+    bool range;    /* connectors have "Broadcast RGB", and somebody has limited it */
 };
 #define SIM_RENDER_NODE "/dev/dri/renderD128" /* the only one */
 struct sim_gpu {                              /* of all cards */
@@ -82,6 +83,8 @@ void sim_begin(void);
  * violations. */
 int sim_end(void);
 void sim_add_card(int card, const char *path, const struct sim_traits *traits);
+enum { SIM_RANGE_AUTOMATIC, SIM_RANGE_FULL, SIM_RANGE_LIMITED };
+uint64_t sim_range(int card); /* "Broadcast RGB" of its first connector */
 void sim_set_gpu(const struct sim_gpu *gpu);
 void sim_refuse_mode(struct sim_refusal refusal);
 void sim_allow_modes(void);

@@ -276,13 +276,17 @@ static int set_cursor(int fd, uint32_t id, uint32_t handle, uint32_t width, uint
     return f ? -ENXIO : -errno;
 }
 
-/* Only DPMS can be set on a connector. */
+/* DPMS and the range can be set on a connector. */
 static int set_connector(int fd, uint32_t id, uint32_t property, uint64_t value) {
     struct sim_file *f = sim_enter_as_master(SIM_ModeConnectorSetProperty, fd);
     if (!f) return -errno;
     struct sim_card *card = sim_card_of(f);
     const int i = sim_index(id, sim_connector_id(card, 0), SIM_CONNECTORS);
     if (i < 0) return -ENOENT;
+    if (property == SIM_PROP_BASE + SIM_P_RANGE && card->traits.range && value < 3) {
+        card->state.connectors[i].range = value;
+        return 0;
+    }
     if (property != SIM_PROP_BASE + SIM_P_DPMS) return -EINVAL;
     const bool on = value == DRM_MODE_DPMS_ON;
     const int crtc = card->state.connectors[i].crtc;

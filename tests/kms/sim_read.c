@@ -69,6 +69,7 @@ static const char *const prop_names[SIM_PROPS] = {
     [SIM_P_NON_DESKTOP] = "non-desktop",
     [SIM_P_EDID] = "EDID",
     [SIM_P_DPMS] = "DPMS",
+    [SIM_P_RANGE] = "Broadcast RGB",
     [SIM_P_CONNECTOR_CRTC] = "CRTC_ID",
     [SIM_P_ACTIVE] = "ACTIVE",
     [SIM_P_MODE] = "MODE_ID",
@@ -118,6 +119,7 @@ static void connector_props(const struct sim_file *f, const struct sim_card *car
     put(p, SIM_P_ORIENTATION, 0);
     put(p, SIM_P_EDID, edid_id(card, card->known[i]));
     put(p, SIM_P_DPMS, card->state.connectors[i].asleep ? DRM_MODE_DPMS_OFF : DRM_MODE_DPMS_ON);
+    if (card->traits.range) put(p, SIM_P_RANGE, card->state.connectors[i].range);
     if (f->atomic) put(p, SIM_P_CONNECTOR_CRTC, crtc_or_0(card, card->state.connectors[i].crtc));
 }
 
@@ -167,9 +169,20 @@ static drmModePropertyPtr property(int fd, uint32_t id) {
     if (!f) return NULL;
     const int i = find(id, SIM_PROP_BASE, SIM_PROPS);
     if (i <= 0) return NULL;
-    drmModePropertyRes *p = sim_reply(sizeof *p);
+    static const char *const ranges[] = {"Automatic", "Full", "Limited 16:235"};
+    struct reply {
+        drmModePropertyRes prop;
+        struct drm_mode_property_enum enums[3];
+    } *r = sim_reply(sizeof *r);
+    drmModePropertyRes *p = &r->prop;
     p->prop_id = id;
     snprintf(p->name, sizeof p->name, "%s", prop_names[i]);
+    for (int k = 0; i == SIM_P_RANGE && k < 3; k++) {
+        r->enums[k].value = (uint64_t)k;
+        snprintf(r->enums[k].name, sizeof r->enums[k].name, "%s", ranges[k]);
+        p->enums = r->enums;
+        p->count_enums = 3;
+    }
     return p;
 }
 

@@ -23,6 +23,7 @@ enum sim_prop {
     SIM_P_NON_DESKTOP,
     SIM_P_EDID,
     SIM_P_DPMS,
+    SIM_P_RANGE,
     SIM_P_CONNECTOR_CRTC,
     SIM_P_ACTIVE,
     SIM_P_MODE,
@@ -82,7 +83,8 @@ struct sim_plane_state {
 struct sim_connector_state {
     int crtc;
     bool bad_link;
-    bool asleep; /* legacy DPMS */
+    bool asleep;    /* legacy DPMS */
+    uint64_t range; /* of "Broadcast RGB" */
 };
 struct sim_state { /* committed state; a flip to it may be pending */
     struct sim_crtc_state crtcs[SIM_CRTCS];

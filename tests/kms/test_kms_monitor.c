@@ -191,6 +191,46 @@ static void test_hotplug_on_another_console(void **state) {
     end();
 }
 
+/* Full or limited range is set with the mode, and taken back at the end; what cannot is said. */
+static void test_range_of_levels(void **state) {
+    (void)state;
+    static const struct {
+        enum gn_screen_range asked;
+        bool has, legacy;
+        uint64_t set;
+        const char *said;
+    } rows[] = {
+        {GN_RANGE_AUTO, true, false, SIM_RANGE_LIMITED, " atomic"},
+        {GN_RANGE_FULL, true, false, SIM_RANGE_FULL, ", full range"},
+        {GN_RANGE_LIMITED, true, false, SIM_RANGE_LIMITED, ", limited range"},
+        {GN_RANGE_FULL, true, true, SIM_RANGE_FULL, ", full range"},
+        {GN_RANGE_LIMITED, false, false, 0, " atomic"},
+        {GN_RANGE_LIMITED, false, true, 0, " legacy"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const struct client_kind kind = {
+            .name = rows[i].said,
+            .traits = {.console = true, .range = rows[i].has, .legacy = rows[i].legacy},
+            .opts = {.range = rows[i].asked}};
+        client_begin(&c, &kind, SIM_FULL_HD);
+        const char *what = client_screen(&c)->what;
+        assert_int_equal(sim_range(0), rows[i].set);
+        const bool lacks = rows[i].asked != GN_RANGE_AUTO && !rows[i].has;
+        assert_int_equal(client_screen(&c)->lacks_range, lacks);
+        assert_int_equal(client_screen(&c)->range, lacks ? GN_RANGE_AUTO : rows[i].asked);
+        assert_true(strlen(what) > strlen(rows[i].said));
+        assert_string_equal(what + strlen(what) - strlen(rows[i].said), rows[i].said);
+        sim_plug(0, 0, SIM_NO_MONITOR);
+        client_run(&c, SIM_S);
+        sim_plug(0, 0, SIM_SMALL);
+        expect_width(48);
+        assert_int_equal(sim_range(0), rows[i].set);
+        client_close(&c);
+        assert_int_equal(sim_range(0), rows[i].has ? SIM_RANGE_LIMITED : 0); /* as it was */
+        assert_int_equal(sim_end(), 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_same_monitor_keeps_mode),
@@ -205,6 +245,7 @@ int main(void) {
         cmocka_unit_test(test_hotplug_on_another_console),
         cmocka_unit_test(test_cap_of_automatic_mode),
         cmocka_unit_test(test_missing_render_node),
+        cmocka_unit_test(test_range_of_levels),
     };
     return RUN(tests);
 }

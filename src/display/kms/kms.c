@@ -23,11 +23,16 @@ static void publish_state(struct gn_kms *k, int64_t now_ns) {
                   (copies || k->env.scanout->has_free(k->device.scanout));
     s->width_px = k->monitor.connected ? k->buffers.opts.width_px : 0;
     s->height_px = k->monitor.connected ? k->buffers.opts.height_px : 0;
+    s->range = k->output.range.is_set ? k->opts->range : GN_RANGE_AUTO;
+    s->lacks_range = k->monitor.connected && k->output.range.lacks;
     s->what[0] = 0;
     if (k->monitor.connected)
-        snprintf(s->what, sizeof s->what, "%s %ux%u@%.2f %s", k->monitor.connector, s->width_px,
+        snprintf(s->what, sizeof s->what, "%s %ux%u@%.2f %s%s", k->monitor.connector, s->width_px,
                  s->height_px, gn_kms_mode_mhz(&k->monitor.candidates[k->monitor.mode]) / 1000.0,
-                 k->output.atomic ? "atomic" : "legacy");
+                 k->output.atomic ? "atomic" : "legacy",
+                 s->range == GN_RANGE_FULL      ? ", full range"
+                 : s->range == GN_RANGE_LIMITED ? ", limited range"
+                                                : "");
     s->rotate_deg = (k->opts->rotate_deg + k->monitor.orientation_deg) % 360;
     s->srgb = !copies && k->buffers.surface.srgb;
     s->period_ns = k->flip.period_ns;

@@ -286,6 +286,8 @@ static int commit_light(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
     add_property(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_CRTC], o->crtc);
     add_property(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_LINK],
                  DRM_MODE_LINK_STATUS_GOOD);
+    if (o->range.is_set)
+        add_property(&r, o->connector, o->connector_props[GN_PROP_CONNECTOR_RANGE], o->range.value);
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], blob);
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 1);
     const uint32_t *p = o->plane_props;
@@ -342,6 +344,30 @@ static int wake_connector(struct gn_kms_output *o) {
     return 0;
 }
 
+/* ---- range of levels ---- */
+
+void gn_kms_output_set_range(struct gn_kms_output *o, enum gn_screen_range range) {
+    static const char *const names[] = {"Automatic", "Full", "Limited"};
+    uint32_t ids[GN_PROP_CONNECTOR_COUNT];
+    uint64_t values[GN_PROP_CONNECTOR_COUNT];
+    struct gn_kms_range *r = &o->range;
+    *r = (struct gn_kms_range){0};
+    if (range == GN_RANGE_AUTO) return; /* whatever was set before us */
+    gn_kms_props_read(o->drm, o->fd, o->connector, DRM_MODE_OBJECT_CONNECTOR,
+                      gn_kms_connector_props, GN_PROP_CONNECTOR_COUNT, ids, values);
+    o->connector_props[GN_PROP_CONNECTOR_RANGE] = ids[GN_PROP_CONNECTOR_RANGE];
+    r->old = values[GN_PROP_CONNECTOR_RANGE];
+    r->is_set =
+        gn_kms_prop_value(o->drm, o->fd, ids[GN_PROP_CONNECTOR_RANGE], names[range], &r->value);
+    r->lacks = !r->is_set;
+}
+
+/* By itself: drivers with the atomic interface take it, too. */
+static int send_range(struct gn_kms_output *o, uint64_t value) {
+    return error_of(o->drm->ModeConnectorSetProperty(
+        o->fd, o->connector, o->connector_props[GN_PROP_CONNECTOR_RANGE], value));
+}
+
 /* ---- modeset ---- */
 
 int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
@@ -356,6 +382,7 @@ int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
     } else {
         drmModeModeInfo copy = *mode;
         o->drm->ModeSetCursor(o->fd, o->crtc, 0, 0, 0);
+        if (o->range.is_set) send_range(o, o->range.value); /* the picture matters more */
         error = error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, fb, 0, 0, &o->connector, 1, &copy));
     }
     if (error != 0) return error;
@@ -400,6 +427,7 @@ void gn_kms_output_close(struct gn_kms_output *o, bool restore) {
     if (!o->drm) return;
     if (restore && (o->mode.hdisplay > 0 || o->dpms == GN_ASLEEP)) {
         wake_connector(o);
+        if (o->range.is_set) send_range(o, o->range.old);
         /* restores the console's framebuffer; another program's may be gone */
         if (!o->was_lit || o->drm->ModeSetCrtc(o->fd, o->crtc, o->old_fb, o->old_x, o->old_y,
                                                &o->connector, 1, &o->old_mode) != 0)

@@ -12,6 +12,7 @@ enum gn_kms_connector_prop { /* names are in kms/props.c */
                              GN_PROP_CONNECTOR_CRTC,
                              GN_PROP_CONNECTOR_LINK,
                              GN_PROP_CONNECTOR_DPMS,
+                             GN_PROP_CONNECTOR_RANGE, /* optional */
                              GN_PROP_CONNECTOR_COUNT,
 };
 enum gn_kms_crtc_prop { GN_PROP_CRTC_ACTIVE, GN_PROP_CRTC_MODE, GN_PROP_CRTC_COUNT };
@@ -37,6 +38,9 @@ enum gn_kms_plane_prop {
  * False: some could not be read. */
 bool gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, uint32_t type,
                        const char *const *names, int count, uint32_t *ids, uint64_t *values);
+/* The value of an enumerated property whose name begins so. False: it has none, or is 0. */
+bool gn_kms_prop_value(const struct gn_drm_ops *drm, int fd, uint32_t prop, const char *start,
+                       uint64_t *out);
 extern const char *const gn_kms_connector_props[GN_PROP_CONNECTOR_COUNT];
 extern const char *const gn_kms_crtc_props[GN_PROP_CRTC_COUNT];
 extern const char *const gn_kms_plane_props[GN_PROP_PLANE_COUNT];
@@ -55,7 +59,12 @@ struct gn_kms_output {
     uint32_t crtc_props[GN_PROP_CRTC_COUNT];
     uint32_t plane_props[GN_PROP_PLANE_COUNT];
     struct gn_kms_fb fbs[GN_KMS_FBS_MAX];
-    drmModeModeInfo mode;                            /* current mode */
+    drmModeModeInfo mode; /* current mode */
+    struct gn_kms_range {
+        bool is_set; /* `value` goes out with each modeset */
+        bool lacks;  /* one was asked for that the connector does not have */
+        uint64_t value, old;
+    } range;
     enum { GN_AWAKE, GN_MAY_SLEEP, GN_ASLEEP } dpms; /* woken before the modeset */
     bool was_lit;                                    /* state before it was opened */
     uint32_t old_fb, old_x, old_y;
@@ -69,6 +78,9 @@ bool gn_kms_output_open(struct gn_kms_output *output, const struct gn_drm_ops *d
 /* `restore` puts the CRTC back into its old state, if still possible. Framebuffers are removed in
  * any case. A zeroed struct may be closed. */
 void gn_kms_output_close(struct gn_kms_output *output, bool restore);
+
+/* From the next modeset on. Where the connector cannot do that it stays as it is. */
+void gn_kms_output_set_range(struct gn_kms_output *output, enum gn_screen_range range);
 
 /* Reads the plane's formats and modifiers. */
 void gn_kms_output_formats(const struct gn_kms_output *output, struct gn_surface_opts *out);

@@ -7,6 +7,7 @@ const char *const gn_kms_connector_props[GN_PROP_CONNECTOR_COUNT] = {
     [GN_PROP_CONNECTOR_CRTC] = "CRTC_ID",
     [GN_PROP_CONNECTOR_LINK] = "link-status",
     [GN_PROP_CONNECTOR_DPMS] = "DPMS",
+    [GN_PROP_CONNECTOR_RANGE] = "Broadcast RGB",
 };
 const char *const gn_kms_crtc_props[GN_PROP_CRTC_COUNT] = {
     [GN_PROP_CRTC_ACTIVE] = "ACTIVE",
@@ -21,6 +22,18 @@ const char *const gn_kms_plane_props[GN_PROP_PLANE_COUNT] = {
     [GN_PROP_PLANE_H] = "CRTC_H",          [GN_PROP_PLANE_FENCE] = "IN_FENCE_FD",
     [GN_PROP_PLANE_ROTATION] = "rotation", [GN_PROP_PLANE_FORMATS] = "IN_FORMATS",
 };
+
+bool gn_kms_prop_value(const struct gn_drm_ops *drm, int fd, uint32_t prop, const char *start,
+                       uint64_t *out) {
+    drmModePropertyRes *p = prop ? drm->ModeGetProperty(fd, prop) : NULL;
+    bool found = false;
+    for (int i = 0; p && i < p->count_enums && !found; i++) {
+        found = strncmp(p->enums[i].name, start, strlen(start)) == 0;
+        if (found) *out = p->enums[i].value;
+    }
+    if (p) drm->ModeFreeProperty(p);
+    return found;
+}
 
 bool gn_kms_props_read(const struct gn_drm_ops *drm, int fd, uint32_t object, uint32_t type,
                        const char *const *names, int count, uint32_t *ids, uint64_t *values) {

@@ -195,6 +195,7 @@ static bool open_output(struct gn_kms *k, int connector, int crtc) {
         k->device.unreadable++;
         return false;
     }
+    gn_kms_output_set_range(&k->output, k->opts->range);
     gn_kms_output_formats(&k->output, &k->buffers.opts);
     k->buffers.opts.unencoded = k->opts->unencoded;
     return true;

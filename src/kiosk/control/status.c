@@ -97,6 +97,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     const struct gn_screen *screen = &display->screen;
     const struct gn_screen_counts *frames = &screen->counts;
     const int64_t now_ns = gn_loop_now_ns(s->loop);
+    static const char *const ranges[] = {"auto", "full", "limited"};
     json_t *modes = json_array();
     for (int i = 0; i < s->modes.count; i++)
         json_array_append_new(modes, gn_json_make_text(s->modes.names[i]));
@@ -108,12 +109,12 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_set_new(reply, "modes", modes);
     if (s->stage.settings->light_count > 0) json_object_set_new(reply, "lights", lights_json(s));
     json_object_set_new(reply, "screen",
-                        json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i}", "backend",
+                        json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i, s:s}", "backend",
                                   display->ops ? display->ops->name : "", "what",
                                   gn_json_make_text(screen->what), "status",
                                   gn_json_make_text(screen->status), "lit", screen->lit, "width",
                                   (int)screen->width_px, "height", (int)screen->height_px, "rotate",
-                                  (int)screen->rotate_deg));
+                                  (int)screen->rotate_deg, "range", ranges[screen->range]));
     json_object_set_new(
         reply, "frames",
         json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn", (json_int_t)s->counts.frames,
