@@ -8,7 +8,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-enum { ADAPTERS_MAX = 16, REPLY_MS = 1000 };
+enum { ADAPTERS_MAX = 16, REPLY_MS = 1000, CLAIM_MS = 5000, CLAIM_STEP_MS = 20 };
 
 /* ---- the kernel ----------------------------------------------------------------------------- */
 
@@ -18,9 +18,15 @@ static int open_device(void *context, const char *path) {
     return fd >= 0 ? fd : -errno;
 }
 
+/* The kernel waits for a claim in a way that nothing ends, not even the end of the process, and for
+ * seconds: this request returns at once instead, and wait_for_claim() asks for the result. */
 static int call_device(void *context, int fd, unsigned long request, void *argument) {
+    const bool waits = request != CEC_ADAP_S_LOG_ADDRS;
     (void)context;
-    return ioctl(fd, request, argument) < 0 ? -errno : 0;
+    if (!waits && fcntl(fd, F_SETFL, O_RDWR | O_NONBLOCK) < 0) return -errno;
+    const int error = ioctl(fd, request, argument) < 0 ? -errno : 0;
+    if (!waits) fcntl(fd, F_SETFL, O_RDWR);
+    return error;
 }
 
 static void close_device(void *context, int fd) {
@@ -173,6 +179,22 @@ static void explain_call(struct gn_cec_report *r, int error) {
         snprintf(r->why, sizeof r->why, "cannot send by %s: %s", path, strerror(-error));
 }
 
+static bool is_claimed(const struct cec_log_addrs *have) {
+    return have->log_addr_mask != 0 && have->log_addr[0] <= CEC_LOG_ADDR_UNREGISTERED;
+}
+
+/* Until the adapter has an address, for a while: without a television it gets none. */
+static int wait_for_claim(const struct gn_cec_opts *o, const struct gn_cec_report *r,
+                          struct cec_log_addrs *have) {
+    int error = 0;
+    for (int ms = 0; error == 0 && !is_claimed(have) && ms < CLAIM_MS; ms += CLAIM_STEP_MS) {
+        if (ms > 0) usleep(1000 * CLAIM_STEP_MS);
+        if (!r->adapter.has_address) return 0;
+        error = call_adapter(o, &r->adapter, CEC_ADAP_G_LOG_ADDRS, have);
+    }
+    return error;
+}
+
 /* Claims a logical address, unless there is one. False: see r. With *own 15 it has none, but the
  * television hears it all the same. */
 static bool claim_address(const struct gn_cec_opts *o, struct gn_cec_report *r, uint8_t *own) {
@@ -191,10 +213,12 @@ static bool claim_address(const struct gn_cec_opts *o, struct gn_cec_report *r, 
             .all_device_types = {CEC_OP_ALL_DEVTYPE_PLAYBACK},
         };
         error = call_adapter(o, &r->adapter, CEC_ADAP_S_LOG_ADDRS, &have);
+        have.log_addr_mask = 0; /* what it was given, where it does not wait */
+        if (error == 0) error = wait_for_claim(o, r, &have);
     }
     if (error != 0)
         explain_call(r, error);
-    else if (have.log_addr_mask != 0 && have.log_addr[0] <= CEC_LOG_ADDR_UNREGISTERED)
+    else if (is_claimed(&have))
         *own = have.log_addr[0];
     return error == 0;
 }

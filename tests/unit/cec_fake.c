@@ -62,16 +62,18 @@ static int claim(struct cec_fake_adapter *a, struct cec_log_addrs *l) {
     if (l->num_log_addrs != 1 || l->log_addr_type[0] != CEC_LOG_ADDR_TYPE_PLAYBACK) return -EINVAL;
     snprintf(a->osd_name, sizeof a->osd_name, "%s", l->osd_name);
     if (a->address == CEC_FAKE_NONE) return 0; /* claims once there is one */
-    a->logical = CEC_LOG_ADDR_PLAYBACK_1;
-    l->log_addr[0] = CEC_LOG_ADDR_PLAYBACK_1;
-    l->log_addr_mask = 1 << CEC_LOG_ADDR_PLAYBACK_1;
+    a->logical = CEC_LOG_ADDR_PLAYBACK_1;      /* the claim goes on behind it: see tell_claimed() */
     return 0;
 }
 
-static void tell_claimed(const struct cec_fake_adapter *a, struct cec_log_addrs *l) {
+static void tell_claimed(struct cec_fake_adapter *a, struct cec_log_addrs *l) {
     *l = (struct cec_log_addrs){.num_log_addrs = a->osd_name[0] || a->logical};
     memset(l->log_addr, CEC_LOG_ADDR_INVALID, sizeof l->log_addr);
     if (!a->logical) return;
+    if (a->claim_reads > 0) {
+        a->claim_reads--;
+        return;
+    }
     l->log_addr[0] = (uint8_t)a->logical;
     l->log_addr_mask = (uint16_t)(1 << a->logical);
 }
@@ -99,7 +101,7 @@ static void answer(struct cec_fake *f, struct cec_msg *m) {
 }
 
 static int transmit(struct cec_fake *f, const struct cec_fake_adapter *a, struct cec_msg *m) {
-    const bool is_configured = a->logical && a->address != CEC_FAKE_NONE;
+    const bool is_configured = a->logical && a->address != CEC_FAKE_NONE && a->claim_reads == 0;
     if (!is_configured && (m->msg[0] != 0xf0 || caps_of(a) & CEC_CAP_NEEDS_HPD)) return -ENONET;
     if (is_configured && cec_msg_initiator(m) != a->logical) return -EINVAL;
     log_message(f, m);

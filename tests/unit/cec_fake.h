@@ -15,6 +15,7 @@ struct cec_fake_adapter {
     unsigned long fails;         /* this request fails .. */
     int fails_with, fails_times; /* .. with that errno, so often; -1: always */
     int logical;                 /* claimed; 0: none */
+    int claim_reads;             /* so often a claim is asked for until it is done */
     char osd_name[16];
 };
 struct cec_fake {

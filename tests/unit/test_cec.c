@@ -2,6 +2,7 @@
 #include "unit/check.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <linux/cec.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,6 +48,29 @@ static void one_that_starts_is_told_again_and_one_that_does_not_say_is_on(void *
     assert_int_equal(tell(fake, true).result, GN_CEC_TOLD);
     fake->starts = -1;
     assert_int_equal(tell(fake, true).result, GN_CEC_TOLD);
+}
+
+/* The kernel's claim is not waited for in the kernel: nothing could end that. */
+static void messages_wait_until_the_address_is_claimed(void **state) {
+    (void)state;
+    struct cec_fake *fake = cec_fake_new();
+    fake->adapters[0].claim_reads = 4;
+    assert_int_equal(tell(fake, true).result, GN_CEC_TOLD);
+    assert_string_equal(fake->log, "40:04 4f:82:10:00 40:8f ");
+    assert_int_equal(fake->adapters[0].claim_reads, 0);
+}
+
+/* /dev/null stands for an adapter. */
+static void a_claim_leaves_the_descriptor_waiting_for_the_rest(void **state) {
+    (void)state;
+    struct cec_log_addrs claim = {0};
+    struct cec_msg message = {0};
+    const int fd = gn_cec_kernel.open(NULL, "/dev/null");
+    assert_true(fd >= 0);
+    assert_int_equal(gn_cec_kernel.ioctl(NULL, fd, CEC_ADAP_S_LOG_ADDRS, &claim), -ENOTTY);
+    assert_int_equal(fcntl(fd, F_GETFL) & O_NONBLOCK, 0);
+    assert_int_equal(gn_cec_kernel.ioctl(NULL, fd, CEC_TRANSMIT, &message), -ENOTTY);
+    gn_cec_kernel.close(NULL, fd);
 }
 
 static void one_that_does_not_acknowledge_is_no_success(void **state) {
@@ -213,6 +237,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(on_is_view_on_and_source_and_off_is_standby),
         cmocka_unit_test(one_that_starts_is_told_again_and_one_that_does_not_say_is_on),
+        cmocka_unit_test(messages_wait_until_the_address_is_claimed),
+        cmocka_unit_test(a_claim_leaves_the_descriptor_waiting_for_the_rest),
         cmocka_unit_test(one_that_does_not_acknowledge_is_no_success),
         cmocka_unit_test(without_an_address_only_view_on_is_sent),
         cmocka_unit_test(an_adapter_that_others_have_configured_stays_so),
