@@ -156,6 +156,14 @@ static void check_devices(struct here *h) {
     }
 }
 
+/* Of now: a kiosk runs on, and says so, too. */
+static void check_health(struct here *h) {
+    char text[200];
+    for (int i = 0; i < GN_HEALTH_COUNT; i++)
+        if (gn_health_explain(&h->report->health, (enum gn_health_kind)i, -1, text, sizeof text))
+            gn_warn(h->warnings, "%s; %s", text, gn_health_cures[i]);
+}
+
 /* ---- the GPU ------------------------------------------------------------------------------- */
 
 /* Another format is taken where a GPU lacks the one that is named; whoever names it has a reason.
@@ -193,6 +201,7 @@ void gn_cli_check_here(const struct gn_options *options, struct gn_errors *error
         check_devices(&h);
         check_connector(&h, options->settings);
     }
+    check_health(&h);
     if (report.chosen < 0) {
         gn_fail(&err, "nothing can draw here; gnomon doctor says why");
         add_error(&h, &err);

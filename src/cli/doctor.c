@@ -118,6 +118,7 @@ bool gn_doctor_look(struct gn_doctor_report *report, const struct gn_settings *s
     if (!answer) return false;
     *report = (struct gn_doctor_report){.chosen = -1};
     gn_machine_read(&report->machine, "");
+    gn_health_read(&report->health, "");
     gn_input_list_lines(&report->input);
     for (int i = 0; i < report->machine.device_count; i++) {
         struct gn_device *device = &report->machine.devices[i];

@@ -63,6 +63,13 @@ void gn_doctor_diagnose_input(struct gn_doctor_report *report) {
                    input->devices_denied, input->devices);
 }
 
+void gn_doctor_diagnose_health(struct gn_doctor_report *report) {
+    char text[200];
+    for (int i = 0; i < GN_HEALTH_COUNT; i++)
+        if (gn_health_explain(&report->health, (enum gn_health_kind)i, -1, text, sizeof text))
+            gn_problem_add(&report->problems, gn_health_cures[i], "%s", text);
+}
+
 void gn_doctor_diagnose(struct gn_doctor_report *report) {
     const struct gn_machine *m = &report->machine;
     const bool has_card = has_device(m, GN_DEVICE_CARD);
@@ -95,6 +102,7 @@ void gn_doctor_diagnose(struct gn_doctor_report *report) {
             "on a Raspberry Pi put dtoverlay=vc4-kms-v3d into /boot/firmware/config.txt; "
             "else load the GPU's kernel driver",
             "there is no display card (/dev/dri/card*): pictures go to files only");
+    gn_doctor_diagnose_health(report);
     if (m->memory_mb && m->free_mb < 128)
         gn_problem_add(&report->problems, "end other programs, or use smaller textures",
                        "only %llu MB of memory are free", (unsigned long long)m->free_mb);

@@ -83,6 +83,24 @@ static void print_devices(const struct gn_machine *m, bool gpio, FILE *to) {
                 m->connectors[i].modes[0] ? ", " : "", m->connectors[i].modes);
 }
 
+/* What the kernel tells of it; that may be nothing. */
+static void print_health(const struct gn_health *h, FILE *to) {
+    char text[200];
+    const bool tells_voltage = h->undervoltage >= 0 || h->firmware >= 0;
+    const bool tells_clock = h->cooled >= 0 || h->firmware >= 0;
+    if (!tells_voltage && !tells_clock && h->hottest_mc <= 0) return;
+    const bool is_low = gn_health_explain(h, GN_HEALTH_VOLTAGE, -1, text, sizeof text);
+    const bool is_slow = gn_health_explain(h, GN_HEALTH_THROTTLED, -1, text, sizeof text);
+    fprintf(to, "\n  %-11s supply %s; clock %s", "health",
+            !tells_voltage ? "unknown"
+            : is_low       ? "too weak"
+                           : "sufficient",
+            !tells_clock ? "unknown"
+            : is_slow    ? "lowered"
+                         : "not lowered");
+    if (h->hottest_mc > 0) fprintf(to, "; %.0f C", (double)h->hottest_mc * 1e-3);
+}
+
 void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
     const struct gn_machine *m = &report->machine;
     fprintf(to, "gnomon %s\n\nMachine\n", GN_VERSION);
@@ -92,6 +110,7 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
     fprintf(to, "  %-11s %llu MB, %llu MB free", "memory", (unsigned long long)m->memory_mb,
             (unsigned long long)m->free_mb);
     if (m->cma_mb) fprintf(to, ", %llu MB contiguous (CMA)", (unsigned long long)m->cma_mb);
+    print_health(&report->health, to);
     char limits[400];
     gn_scene_limits_print(NULL, limits, sizeof limits);
     fprintf(to, "\n  %-11s %s", "limits", limits);
@@ -179,6 +198,15 @@ static json_t *devices_json(const struct gn_doctor_report *report, bool gpio) {
     return all;
 }
 
+static json_t *health_json(const struct gn_health *h) {
+    char text[200];
+    json_t *all = json_array();
+    for (int i = 0; i < GN_HEALTH_COUNT; i++)
+        if (gn_health_explain(h, (enum gn_health_kind)i, -1, text, sizeof text))
+            json_array_append_new(all, json_string(gn_health_names[i]));
+    return all;
+}
+
 bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err) {
     const struct gn_machine *m = &report->machine;
     const bool draws = report->chosen >= 0;
@@ -186,12 +214,12 @@ bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struc
     char limits[400];
     gn_scene_limits_print(NULL, limits, sizeof limits);
     for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text_json(m->groups[i]));
-    json_t *machine =
-        json_pack("{so so so so si sI sI sI ss so so}", "model", text_json(m->model), "system",
-                  text_json(m->system), "kernel", text_json(m->kernel), "arch", text_json(m->arch),
-                  "cpus", m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb",
-                  (json_int_t)m->free_mb, "cma_mb", (json_int_t)m->cma_mb, "limits", limits, "user",
-                  text_json(m->user), "groups", groups);
+    json_t *machine = json_pack(
+        "{so so so so si sI sI sI so ss so so}", "model", text_json(m->model), "system",
+        text_json(m->system), "kernel", text_json(m->kernel), "arch", text_json(m->arch), "cpus",
+        m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb", (json_int_t)m->free_mb,
+        "cma_mb", (json_int_t)m->cma_mb, "health", health_json(&report->health), "limits", limits,
+        "user", text_json(m->user), "groups", groups);
     for (int i = 0; i < report->backend_count; i++) {
         const struct gn_doctor_backend *b = &report->backends[i];
         json_array_append_new(

@@ -8,6 +8,7 @@
 #include "cli/problem.h"
 #include "cli/selftest.h"
 #include "core/err.h"
+#include "core/health.h"
 #include "frame/caps.h"
 #include "input/input.h"
 #include "options/settings.h"
@@ -23,6 +24,7 @@ struct gn_doctor_backend {
 };
 struct gn_doctor_report {
     struct gn_machine machine;
+    struct gn_health health;
     struct gn_input_list input;
     struct gn_doctor_backend backends[GN_DOCTOR_BACKENDS];
     int backend_count;
@@ -41,23 +43,24 @@ bool gn_doctor_look(struct gn_doctor_report *report, const struct gn_settings *s
 void gn_doctor_diagnose(struct gn_doctor_report *report);
 void gn_doctor_diagnose_input(struct gn_doctor_report *report); /* of buttons and keys alone */
 
+void gn_doctor_diagnose_health(struct gn_doctor_report *report); /* what the board suffers from */
+
 /* Those of this user's permissions for devices of one kind. */
 void gn_doctor_diagnose_devices(struct gn_doctor_report *report, enum gn_device_kind kind);
 
 void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
 /* One object:
  * version, can_draw (bool),
- * machine {model|null, system, kernel, arch, cpus, memory_mb, memory_free_mb, cma_mb, limits, user,
- * groups [name]}, backends [{name, what|null, built, opens, why|null, vendor|null, renderer|null,
- * gles|null, software|null}], gpu null or {backend, vendor, renderer, gles, software,
- * max_texture_px, texture_units, proved [name], not_proved [{name, instead}], map_formats [name],
- * auto {technique: map format}}, cards [{path, kind (card, render), driver|null, group, readable,
- * writable, holder|null}], connectors [{name, status, mode|null, modes|null}], gpio [{path,
- * device|null, group, readable, writable, label|null, lines null or [{name|null, used,
- *     consumer|null}] by number}],
- * input {gpio_library|null, devices, devices_denied},
- * problems [{what, cure}],
- * self_test: see selftest.h; absent if not asked for. */
+ * machine {model|null, system, kernel, arch, cpus, memory_mb, memory_free_mb, cma_mb, health [what
+ * it suffers from: undervoltage, throttled, out of CMA], limits, user, groups [name]}, backends
+ * [{name, what|null, built, opens, why|null, vendor|null, renderer|null, gles|null,
+ * software|null}], gpu null or {backend, vendor, renderer, gles, software, max_texture_px,
+ * texture_units, proved [name], not_proved [{name, instead}], map_formats [name], auto {technique:
+ * map format}}, cards [{path, kind (card, render), driver|null, group, readable, writable,
+ * holder|null}], connectors [{name, status, mode|null, modes|null}], gpio [{path, device|null,
+ * group, readable, writable, label|null, lines null or [{name|null, used, consumer|null}] by
+ * number}], input {gpio_library|null, devices, devices_denied}, problems [{what, cure}], self_test:
+ * see selftest.h; absent if not asked for. */
 bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err);
 
 #endif

@@ -99,6 +99,7 @@ bool gn_info_page_step(struct gn_info_page *page, const struct gn_info *info, in
     if (uname(&system) == 0)
         add_line(page, "System: %s %s %s", system.sysname, system.release, system.machine);
     add_temperature(page, info->root);
+    if (info->board && info->board[0]) add_line(page, "Board: %s", info->board);
     const long long s = info->uptime_ns / GN_NS_PER_S, days = s / 86400;
     if (days > 0)
         add_line(page, "Running: %lld day%s %02lld:%02lld:%02lld", days, days == 1 ? "" : "s",

@@ -10,6 +10,7 @@ struct gn_info {                        /* a field that is NULL or zero gets no 
     const struct gn_screen *screen;
     const struct gn_caps *caps;
     int64_t uptime_ns; /* of this program */
+    const char *board; /* what it suffers from */
     const char *root;  /* a prefix of /sys, for tests; else "" or NULL */
 };
 struct gn_info_page { /* zeroed: no text yet */

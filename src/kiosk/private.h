@@ -14,6 +14,7 @@
 #include "kiosk/latency.h"
 #include "kiosk/machine.h"
 #include "kiosk/screenshot.h"
+#include "kiosk/sensor.h"
 #include "kiosk/service.h"
 #include "kiosk/shaders.h"
 #include "kiosk/show.h"
@@ -117,6 +118,9 @@ enum gn_problem {
     GN_PROBLEM_STATE,      /* until it is saved */
     GN_PROBLEM_TELEVISION, /* until it answers */
     GN_PROBLEM_RANGE,      /* until a connector has it, or none is asked for */
+    GN_PROBLEM_VOLTAGE,    /* of the board; until it was well for a minute, like the next two */
+    GN_PROBLEM_THROTTLED,
+    GN_PROBLEM_CMA,
     GN_PROBLEM_COUNT,
 };
 struct gn_show_problems {
@@ -183,6 +187,12 @@ struct gn_show_television {     /* of [schedule] off = cec */
     bool is_set, on;                  /* what it was told last */
     char connector[64];
 };
+struct gn_show_health {       /* of the board */
+    struct gn_sensor *sensor; /* NULL: none */
+    struct gn_watch watch;
+    struct gn_health_log log;
+    char summary[160]; /* "": it has suffered from nothing so far */
+};
 struct gn_show_counts {
     int64_t begun_ns; /* the program, about */
     uint64_t presses; /* of buttons and keys that did something */
@@ -221,6 +231,7 @@ struct gn_show {
     struct gn_show_memory memory;
     struct gn_show_first first;
     struct gn_show_television television;
+    struct gn_show_health health;
     struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
@@ -387,6 +398,10 @@ void gn_show_open_hours(struct gn_show *show);
 void gn_show_open_television(struct gn_show *show);
 void gn_show_step_television(struct gn_show *show);
 void gn_show_close_television(struct gn_show *show);
+
+/* health.c: what the board suffers from, read so often by a thread; root: before /sys and /proc. */
+void gn_show_open_health(struct gn_show *show, const char *root, int64_t interval_ns);
+void gn_show_close_health(struct gn_show *show);
 
 /* truth.c stands here; see truth.h. */
 

@@ -130,6 +130,7 @@ void gn_show_close(struct gn_show *s) {
     gn_service_close(&s->service);
     gn_loop_remove_timer(&s->hours.timer);
     gn_show_close_television(s);
+    gn_show_close_health(s);
     gn_loop_remove_signals(&s->signals);
     gn_loop_close(s->loop);
     gn_changes_destroy(s->config.changes);
@@ -175,6 +176,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     gn_show_open_hours(s);
     gn_show_open_memory(s);
     gn_show_open_television(s);
+    gn_show_open_health(s, "", 10 * GN_NS_PER_S);
     gn_show_stats_open(&s->stats, s->stage.settings, &s->stage.display, s->loop);
     gn_show_open_control(s);
     return true;
@@ -186,6 +188,7 @@ static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *w
                           .service.socket = -1,
                           .shaders.watch.fd = -1,
                           .television.watch.fd = -1,
+                          .health.watch.fd = -1,
                           .content.watch.fd = -1,
                           .warnings = warnings};
     return s;

@@ -77,6 +77,29 @@ static json_t *television_json(const struct gn_show_television *tv) {
                      (json_int_t)t->attempts);
 }
 
+/* What the kernel does not tell is null. */
+static json_t *known_json(bool is_known, json_int_t value) {
+    return is_known ? json_integer(value) : json_null();
+}
+
+/* What is so now, by the last reading, and how often it began. */
+static json_t *board_json(const struct gn_health_log *log) {
+    const struct gn_health *h = &log->last;
+    const struct gn_ailment *of = log->of;
+    const bool has_cma = h->cma_kb > 0 && h->cma_free_kb >= 0;
+    const bool tells_voltage = h->undervoltage >= 0 || h->firmware >= 0;
+    const bool tells_clock = h->cooled >= 0 || h->firmware >= 0;
+    return json_pack(
+        "{s:o, s:o, s:b, s:i, s:i, s:i, s:o, s:o, s:o}", "undervoltage",
+        tells_voltage ? json_boolean(of[GN_HEALTH_VOLTAGE].lasts) : json_null(), "throttled",
+        tells_clock ? json_boolean(of[GN_HEALTH_THROTTLED].lasts) : json_null(), "cma_runs_out",
+        of[GN_HEALTH_CMA].lasts, "undervoltages", (int)of[GN_HEALTH_VOLTAGE].times, "throttlings",
+        (int)of[GN_HEALTH_THROTTLED].times, "cma_shortages", (int)of[GN_HEALTH_CMA].times, "cma_mb",
+        known_json(has_cma, h->cma_kb / 1024), "cma_free_mb",
+        known_json(has_cma, h->cma_free_kb / 1024), "temperature_c",
+        h->hottest_mc > 0 ? gn_json_make_number((double)h->hottest_mc * 1e-3) : json_null());
+}
+
 json_t *gn_show_status_short(const struct gn_show *s) {
     const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &s->kiosk.wanted)];
     const int clip = s->kiosk.play.clip_plus_1 - 1;
@@ -149,6 +172,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     }
     if (s->television.told)
         json_object_set_new(reply, "television", television_json(&s->television));
+    if (s->health.log.begun) json_object_set_new(reply, "board", board_json(&s->health.log));
     json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
     json_object_set_new(reply, "control",
                         json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted",
