@@ -116,8 +116,8 @@ static void tell_range(struct gn_show *s) {
         return;
     }
     snprintf(text, sizeof text,
-             "[display] range: %.*s has no property \"Broadcast RGB\": its levels stay as the "
-             "driver has them",
+             "[display] range: %.*s has no property \"Broadcast RGB\", its levels stay as the "
+             "driver has them; set them in the monitor's menu",
              (int)strcspn(screen->what, " "), screen->what);
     gn_show_report_problem(s, GN_PROBLEM_RANGE, text);
 }
