@@ -28,6 +28,8 @@ void health_pi4(const char *root) {
     health_write(root, "sys/class/hwmon/hwmon0/name", "cpu_thermal\n");
     health_write(root, "sys/class/hwmon/hwmon1/name", "rpi_volt\n");
     health_write(root, "sys/class/hwmon/hwmon1/in0_lcrit_alarm", "0\n");
+    health_write(root, "sys/class/hwmon/hwmon2/name", "ina226\n"); /* another one's alarm */
+    health_write(root, "sys/class/hwmon/hwmon2/in0_lcrit_alarm", "1\n");
     health_write(root, "sys/devices/platform/soc/soc:firmware/get_throttled", "0\n");
     health_write(root, "sys/class/thermal/thermal_zone0/temp", "48312\n");
     health_write(root, "proc/meminfo",
