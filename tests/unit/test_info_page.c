@@ -50,6 +50,16 @@ static void test_a_page_says_what_is_known(void **state) {
     assert_null(strstr(page.text, "Running"));
 }
 
+static void test_what_the_board_suffers_from_has_a_line(void **state) {
+    (void)state;
+    info.board = "";
+    gn_info_page_step(&page, &info, 0);
+    assert_null(strstr(page.text, "Board"));
+    info.board = "undervoltage now and 2 times before";
+    gn_info_page_step(&page, &info, GN_NS_PER_S);
+    assert_true(says("Board: undervoltage now and 2 times before"));
+}
+
 static void test_what_is_not_known_has_no_line(void **state) {
     (void)state;
     const struct gn_info nothing = {.root = "/nowhere"};
@@ -125,6 +135,7 @@ static void test_long_texts_are_cut(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_a_page_says_what_is_known, setup),
+        cmocka_unit_test_setup(test_what_the_board_suffers_from_has_a_line, setup),
         cmocka_unit_test_setup(test_what_is_not_known_has_no_line, setup),
         cmocka_unit_test_setup(test_it_is_made_once_a_second, setup),
         cmocka_unit_test_setup(test_frames_are_those_since_the_last_time, setup),
