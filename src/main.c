@@ -18,7 +18,7 @@ static const struct {
     [GN_COMMAND_INSPECT] = {gn_cli_inspect, false}, [GN_COMMAND_DOCTOR] = {gn_cli_doctor, false},
     [GN_COMMAND_CTL] = {gn_cli_ctl, false},         [GN_COMMAND_COMPARE] = {gn_cli_compare, false},
     [GN_COMMAND_SCORE] = {gn_cli_score, false},     [GN_COMMAND_LESSON] = {gn_cli_lesson, true},
-    [GN_COMMAND_BAKE] = {gn_cli_bake, false},
+    [GN_COMMAND_BAKE] = {gn_cli_bake, false},       [GN_COMMAND_TAKE] = {gn_cli_take, false},
 };
 _Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row per command");
 

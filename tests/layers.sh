@@ -14,10 +14,10 @@ BEGIN {
     may["truth"] = "core scene"
     may["frame"] = "core environment scene shadow caption"
     may["gl"] = "core environment scene shadow frame caption"
-    may["caption"] = may["display"] = may["input"] = may["import"] = "core" # import is a program of its own
-    may["options"] = "core scene shadow frame display input"
+    may["caption"] = may["display"] = may["input"] = may["import"] = may["take"] = "core" # import is a program of its own
+    may["options"] = "core scene shadow frame display input take"
     may["stage"] = "core image environment scene shadow truth frame gl display input caption options"
-    may["kiosk"] = may["stage"] " stage"
+    may["kiosk"] = may["stage"] " stage take"
     may["cli"] = may["kiosk"] " kiosk bake"
     # which rooms may include <KEY..>
     foreign["GLES3/"] = foreign["GLES2/"] = "gl"

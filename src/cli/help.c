@@ -38,6 +38,7 @@ const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
     [GN_COMMAND_LESSON] = {"gnomon lesson position", "gnomon lesson all -o lessons"},
     [GN_COMMAND_BAKE] = {"gnomon bake scene.glb -o board.glb",
                          "gnomon bake scan.obj -o board.glb --simplify 0.25 --texture-limit 1024"},
+    [GN_COMMAND_TAKE] = {"gnomon take /media/stick", "gnomon take --rollback"},
 };
 
 /* ---- texts --------------------------------------------------------------------------------- */

@@ -1,41 +1,15 @@
 /* [schedule]: the screen off, or darker, by the local clock. The clock is looked at when the next
  * minute begins and every ten seconds, so that one that jumps is noticed. While it is not set the
  * screen stays on: boards without a clock of their own start in the past. */
-#include <glob.h>
 #include <stdio.h>
-#include <sys/timex.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "core/clock.h"
 #include "kiosk/private.h"
 
-static const int64_t SET_S = 1704067200; /* 2024; an unset clock shows 1970, or when it was built */
-
-/* The kernel set the clock from one that runs on a battery. */
-static bool has_battery_clock(void) {
-    glob_t found;
-    bool sets = false;
-    if (glob("/sys/class/rtc/*/hctosys", 0, NULL, &found) != 0) return false;
-    for (size_t i = 0; i < found.gl_pathc && !sets; i++) {
-        FILE *file = fopen(found.gl_pathv[i], "re");
-        sets = file && fgetc(file) == '1';
-        if (file) fclose(file);
-    }
-    globfree(&found);
-    return sets;
-}
-
-/* A service may not ask the kernel (ProtectClock), but see what systemd-timesyncd leaves. */
-static bool is_synchronised(void) {
-    struct timex now = {0};
-    return (adjtimex(&now) >= 0 && !(now.status & STA_UNSYNC)) ||
-           access("/run/systemd/timesync/synchronized", F_OK) == 0;
-}
-
 static bool is_set(struct gn_show_hours *hours, int64_t time_s, bool trusts) {
-    if (time_s < SET_S) return false;
-    hours->was_set |= trusts || has_battery_clock() || is_synchronised();
+    if (time_s < GN_CLOCK_PAST_S) return false;
+    hours->was_set |= trusts || gn_clock_was_set();
     return hours->was_set;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/text.h"
 #include "options/command.h"
+#include "options/content.h"
 #include "options/file.h"
 #include "options/lesson.h"
 
@@ -105,7 +106,9 @@ static bool add_word(struct args *args, const char *word, struct gn_err *err) {
             takes_list ? "too many scenes, from \"%.80s\" on"
             : is_score ? "score: unexpected argument \"%.80s\": it takes one picture or folder"
             : command == GN_COMMAND_LESSON ? "unexpected argument \"%.80s\": one lesson, or all"
-                                           : "unexpected argument \"%.80s\": only one scene",
+            : command == GN_COMMAND_TAKE
+                ? "take: unexpected argument \"%.80s\": it takes one folder"
+                : "unexpected argument \"%.80s\": only one scene",
             word);
     args->words[args->word_count++] = word;
     return true;
@@ -123,7 +126,7 @@ static bool fail_command(const char *word, struct gn_err *err) {
     return gn_fail_usage(
         err,
         "\"%.80s\" is neither a command nor a file; the commands are show, "
-        "render, bench, inspect, doctor, ctl, compare, score, lesson, bake, help, version",
+        "render, bench, inspect, doctor, ctl, compare, score, lesson, bake, take, help, version",
         word);
 }
 
@@ -182,6 +185,9 @@ static bool choose_command(struct args *args, struct gn_err *err) {
         return gn_fail_usage(err, "lesson: expected list, all or the name of a lesson");
     if (command == GN_COMMAND_BAKE && args->word_count != 2)
         return gn_fail_usage(err, "bake: expected one scene");
+    if (command == GN_COMMAND_TAKE && args->words[1] && find_flag(args, "rollback"))
+        return gn_fail_usage(err, "take: --rollback takes no folder: unexpected argument \"%.80s\"",
+                             args->words[1]);
     if (command == GN_COMMAND_DOCTOR && args->words[1])
         return gn_fail_usage(err, "doctor takes no scene: unexpected argument \"%.80s\"",
                              args->words[1]);
@@ -206,7 +212,13 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
 
 /* ---- the INI file, the flags, the mode ----------------------------------------------------- */
 
-/* A kiosk whose file is bad, or cannot be read, runs with its defaults and shows the reason. */
+/* The file; "" where there is none. */
+static bool load_config(struct gn_options *options, const char *path, struct gn_err *err) {
+    return !path[0] || gn_config_load(options, path, err);
+}
+
+/* A kiosk whose file is bad, or cannot be read, runs with its defaults and shows the reason; where
+ * content is, with the file alone. */
 static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     char found[PATH_MAX];
@@ -220,11 +232,18 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     const struct flag *check = find_flag(args, "check");
     const struct flag *named = check ? check : find_flag(args, "config");
     const bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
+                          (command == GN_COMMAND_TAKE && !find_flag(args, "content")) ||
                           (command == GN_COMMAND_CTL && !find_flag(args, "socket"));
-    if (!named && !(searches && gn_config_find(found, sizeof found))) return true;
+    if (!searches || !gn_config_find(found, sizeof found)) found[0] = '\0';
+    const char *path = named ? named->text : found;
+    const struct flag *content = find_flag(args, "content");
+    const bool shows = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW;
     struct gn_err why = {0};
     if (check) options->errors = gn_arena_alloc(&options->arena, 1, sizeof *options->errors);
-    if (gn_config_load(options, named ? named->text : found, &why)) return true;
+    const bool is_read = load_config(options, path, &why);
+    if (is_read &&
+        (check || !shows || gn_options_lay_content(options, content ? content->text : NULL, &why)))
+        return true;
     const bool is_show = command == GN_COMMAND_SHOW && !check;
     const bool is_ctl = command == GN_COMMAND_CTL && !(named && why.status != GN_EXIT_USAGE);
     if (!is_show && !is_ctl) {
@@ -233,15 +252,19 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     }
     gn_options_finish(options);
     gn_options_init(options, command);
+    if (is_read) load_config(options, path, NULL);
     options->config_error = gn_arena_strdup(&options->arena, why.text);
-    if (is_show) gn_warn(warnings, "%s (running with the defaults)", why.text);
+    if (is_show)
+        gn_warn(warnings, "%s (running with %s)", why.text,
+                is_read && path[0] ? path : "the defaults");
     return true;
 }
 
 /* Its words are no scenes. */
 static bool takes_words(enum gn_command command) {
     return command == GN_COMMAND_CTL || command == GN_COMMAND_COMPARE ||
-           command == GN_COMMAND_SCORE || command == GN_COMMAND_LESSON;
+           command == GN_COMMAND_SCORE || command == GN_COMMAND_LESSON ||
+           command == GN_COMMAND_TAKE;
 }
 
 static bool apply_flags(struct args *args, struct gn_err *err) {

@@ -181,6 +181,8 @@ GN_OPTION(.name = "watch", .section = "kiosk", .kind = GN_KIND_FLAG,
           .help = "show the scene and this file again when they change, once they are written to the end; what is wrong with them changes nothing but the status", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.watch))
 GN_OPTION(.name = "state", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "FILE|no", .fallback = "no",
           .help = "file that mode, scene and counters outlast a restart in; beside it there are FILE.2 and FILE.new. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
+GN_OPTION(.name = "content", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "DIR|no", .fallback = "no",
+          .help = "folder in which gnomon take keeps what USB sticks bring; its kiosk.ini, or its scene, is laid over this file. A service has /var/lib/gnomon/content", .commands = KIOSK | BIT(TAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.content))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
           .help = "show the name of a mode when it is entered", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
 GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",
@@ -204,7 +206,7 @@ GN_OPTION(.name = "hours-clock", .key = "clock", .section = "schedule", .kind = 
 GN_OPTION(.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "press keys and buttons as this file says: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(run.input_script))
 GN_OPTION(.name = "config", .letter = 'c', .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "read this INI file", .commands = DRAW | BIT(INSPECT) | BIT(CTL), .offset = FIELD(run.config))
+          .help = "read this INI file", .commands = DRAW | BIT(INSPECT) | BIT(CTL) | BIT(TAKE), .offset = FIELD(run.config))
 GN_OPTION(.name = "check", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "check this INI file and the files it names, print the resulting settings", .commands = BIT(SHOW), .offset = FIELD(run.check))
 GN_OPTION(.name = "here", .kind = GN_KIND_FLAG,
@@ -215,6 +217,8 @@ GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
           .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.out))
 GN_OPTION(.name = "simplify", .kind = GN_KIND_NUMBER, .min = 0.001, .max = 1, .value = "RATIO", .fallback = "1",
           .help = "keep this share of each mesh's triangles, or more where it would move by over 1/50 of its size", .commands = BIT(BAKE), .offset = FIELD(run.simplify))
+GN_OPTION(.name = "rollback", .kind = GN_KIND_FLAG,
+          .help = "show what was shown before what was taken last; again: forward", .commands = BIT(TAKE), .offset = FIELD(run.rollback))
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
           .help = "draw this text on the picture, as the kiosk does with an error", .commands = BIT(RENDER), .offset = FIELD(run.caption))
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",

@@ -155,7 +155,8 @@ struct gn_kiosk_settings {
     const char *socket;      /* NULL: see gn_listen_default() */
     const char *screenshots; /* folder; NULL: none */
     bool watch;
-    const char *state; /* file; "no": none */
+    const char *state;   /* file; "no": none */
+    const char *content; /* folder of gnomon take; "no": none */
     bool captions;
     int64_t caption_ns;
 };
@@ -184,6 +185,7 @@ struct gn_run_settings { /* of this run of the program: flags only */
     double reach;                  /* of score: of a filter, texels */
     bool make_truth;               /* of score */
     double simplify;               /* of bake: share of the triangles */
+    bool rollback;                 /* of take */
     bool csv, move_lights, move_casters; /* of bench */
     bool plan, json, self_test, stats, verbose, version, help;
 };

@@ -119,6 +119,9 @@ const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
          "shows a fault of shadows and its cures; with -o as a page of pictures and figures"},
     [GN_COMMAND_BAKE] = {"bake", "bake [OPTION..] SCENE -o FILE.glb",
                          "writes a scene as one small .glb that boards load and draw fast"},
+    [GN_COMMAND_TAKE] =
+        {"take", "take [OPTION..] [FOLDER]",
+         "takes the folder gnomon of a USB stick over, for a kiosk that has [kiosk] content"},
 };
 
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {

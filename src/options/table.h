@@ -18,6 +18,7 @@ enum gn_command {
     GN_COMMAND_SCORE,
     GN_COMMAND_LESSON,
     GN_COMMAND_BAKE,
+    GN_COMMAND_TAKE,
     GN_COMMAND_COUNT,
 };
 struct gn_command_row {

@@ -1,0 +1,96 @@
+#include "options/content.h"
+
+#include <string.h>
+
+#include "options/file.h"
+#include "options/value.h"
+#include "take/shown.h"
+
+static const size_t of_machine[] = {
+    offsetof(struct gn_settings, kiosk.content), offsetof(struct gn_settings, kiosk.socket),
+    offsetof(struct gn_settings, kiosk.state), offsetof(struct gn_settings, kiosk.screenshots)};
+/* They are of other scenes. */
+static const size_t of_scene[] = {
+    offsetof(struct gn_settings, scene.path), offsetof(struct gn_settings, scene.camera),
+    offsetof(struct gn_settings, scene.animation), offsetof(struct gn_settings, scene.variant)};
+
+static bool is_among(const size_t *offsets, size_t size, const struct gn_option_row *row) {
+    for (size_t i = 0; i < size / sizeof *offsets; i++)
+        if (offsets[i] == row->offset) return true;
+    return false;
+}
+
+static bool is_of_content(const struct gn_option_row *row) {
+    static const char *const sections[] = {"scene", "camera", "light"};
+    for (size_t i = 0; row->section && i < sizeof sections / sizeof sections[0]; i++)
+        if (strcmp(row->section, sections[i]) == 0) return true;
+    return false;
+}
+
+static void copy_row(struct gn_settings *to, const struct gn_settings *from, int i) {
+    const struct gn_option_row *row = &gn_option_rows[i];
+    memcpy((char *)to + row->offset, gn_settings_value(from, row), gn_value_size(row->kind));
+    to->source[i] = from->source[i];
+    to->label[i] = from->label[i];
+}
+
+/* To its default. */
+static void reset_row(struct gn_options *o, int i) {
+    const struct gn_option_row *row = &gn_option_rows[i];
+    struct gn_settings *all = &o->all[0];
+    char *value = (char *)all + row->offset;
+    struct gn_err unused = {0};
+    memset(value, 0, gn_value_size(row->kind));
+    if (row->fallback) gn_value_parse(row, row->fallback, value, &o->arena, row->name, &unused);
+    all->source[i] = GN_SOURCE_DEFAULT;
+    all->label[i] = NULL;
+}
+
+static bool lay_scene(struct gn_options *o, const char *path, struct gn_err *err) {
+    const struct gn_option_row *row = gn_option_find_key("scene", "file");
+    for (int i = 0; i < GN_OPTION_COUNT; i++)
+        if (is_among(of_scene, sizeof of_scene, &gn_option_rows[i])) reset_row(o, i);
+    return gn_options_set(o, row, path, GN_SOURCE_INI, "content", err);
+}
+
+/* A mode that a button of the file names may be gone. */
+static bool check_buttons(const struct gn_options *o, struct gn_err *err) {
+    char names[300];
+    gn_options_list_modes(o, names, sizeof names);
+    for (int b = 0; o->buttons && b < o->buttons->count; b++)
+        for (int g = 0; g < GN_GESTURE_COUNT; g++) {
+            const struct gn_binding *on = &o->buttons->items[b].on[g];
+            bool found = !on->bound || on->action.kind != GN_ACTION_MODE || o->mode_count == 0;
+            for (int i = 0; !found && i < o->mode_count; i++)
+                found = strcmp(o->modes[i].name, on->action.name) == 0;
+            if (!found)
+                return gn_fail_usage(err,
+                                     "%s: the kiosk's button \"%s\" goes to the mode \"%s\", which "
+                                     "is not there; it has%s",
+                                     o->config_path, o->buttons->items[b].opts.name,
+                                     on->action.name, names);
+        }
+    return true;
+}
+
+static bool lay_ini(struct gn_options *o, const char *path, struct gn_err *err) {
+    struct gn_settings *all = &o->all[0];
+    const struct gn_settings before = *all;
+    for (int i = 0; i < GN_OPTION_COUNT; i++)
+        if (is_of_content(&gn_option_rows[i])) reset_row(o, i);
+    all->lights = NULL;
+    all->light_count = 0;
+    o->modes = NULL;
+    o->mode_count = 0;
+    if (!gn_config_load(o, path, err)) return false;
+    for (int i = 0; i < GN_OPTION_COUNT; i++)
+        if (is_among(of_machine, sizeof of_machine, &gn_option_rows[i])) copy_row(all, &before, i);
+    return check_buttons(o, err);
+}
+
+bool gn_options_lay_content(struct gn_options *o, const char *folder, struct gn_err *err) {
+    const char *own = folder ? folder : o->all[0].kiosk.content;
+    struct gn_take_shown shown;
+    if (!own || strcmp(own, "no") == 0 || !gn_take_shown(own, &shown)) return true;
+    return shown.ini[0] ? lay_ini(o, shown.ini, err) : lay_scene(o, shown.scene, err);
+}
