@@ -10,6 +10,15 @@
 #include "kiosk/private.h"
 #include "take/shown.h"
 
+/* Another version than the one that is shown. */
+bool gn_show_content_turned(const struct gn_show *s) {
+    const struct gn_options *o = s->config.options;
+    const char *folder = o->settings->kiosk.content;
+    struct gn_take_shown shown;
+    return strcmp(folder, "no") != 0 && gn_take_shown(folder, &shown) &&
+           (!o->content || strcmp(o->content, shown.folder) != 0);
+}
+
 void gn_show_follow_content(struct gn_show *s, bool missed) {
     const struct gn_options *o = s->config.options;
     const struct gn_show_problems *problems = &s->text.problems;
@@ -22,6 +31,7 @@ void gn_show_follow_content(struct gn_show *s, bool missed) {
     const char *const paths[] = {
         link,
         o->config_path,
+        o->base_path,
         s->scenes.count > 0 ? s->scenes.paths[s->scenes.shown] : NULL,
         s->config.asked,
         fails && problems->scene < s->scenes.count ? s->scenes.paths[problems->scene] : NULL,
@@ -33,6 +43,8 @@ void gn_show_follow_content(struct gn_show *s, bool missed) {
         gn_show_cure_problem(s, GN_PROBLEM_WATCH);
     } else if (is_open || gn_content_open(&s->content, s->loop)) {
         gn_content_follow(&s->content, paths, count, missed && kiosk->watch);
+        /* it was while the options were read; after a failure it is not tried over and over */
+        s->content.changed |= !missed && gn_show_content_turned(s);
         gn_show_cure_problem(s, GN_PROBLEM_WATCH);
     } else {
         snprintf(text, sizeof text, "%s: changes of files are not noticed: %s",

@@ -389,6 +389,7 @@ bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
 /* follow.c: the files that are watched; called again after each load, whatever became of it. */
 void gn_show_follow_content(struct gn_show *show, bool missed);
+bool gn_show_content_turned(const struct gn_show *show); /* gn_take_keep() or _back() was there */
 
 /* hours.c: the screen is off by the clock; called again after a reload. */
 void gn_show_open_hours(struct gn_show *show);

@@ -173,7 +173,8 @@ void gn_show_reload(struct gn_show *s) {
 void gn_show_renew_content(struct gn_show *s) {
     if (!s->content.changed || s->reload.first) return;
     s->content.changed = false;
-    begin_reload(s, GN_RELOAD_SEEN, s->config.file);
+    /* new content also replaces the scene of ctl scene */
+    begin_reload(s, GN_RELOAD_SEEN, gn_show_content_turned(s) ? NULL : s->config.file);
 }
 
 void gn_show_load_file(struct gn_show *s, const char *path) {

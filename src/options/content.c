@@ -80,6 +80,7 @@ static bool lay_ini(struct gn_options *o, const char *path, struct gn_err *err) 
         if (is_of_content(&gn_option_rows[i])) reset_row(o, i);
     all->lights = NULL;
     all->light_count = 0;
+    o->base_path = o->config_path;
     o->modes = NULL;
     o->mode_count = 0;
     if (!gn_config_load(o, path, err)) return false;
@@ -92,5 +93,7 @@ bool gn_options_lay_content(struct gn_options *o, const char *folder, struct gn_
     const char *own = folder ? folder : o->all[0].kiosk.content;
     struct gn_take_shown shown;
     if (!own || strcmp(own, "no") == 0 || !gn_take_shown(own, &shown)) return true;
+    o->content = gn_arena_strdup(&o->arena, shown.folder);
+    if (!o->content) return gn_fail(err, "no memory left");
     return shown.ini[0] ? lay_ini(o, shown.ini, err) : lay_scene(o, shown.scene, err);
 }

@@ -28,6 +28,8 @@ struct gn_options {
     bool is_lesson;   /* the modes are its steps */
     const struct gn_buttons *buttons; /* of the INI file; NULL: it has none */
     const char *config_path;          /* the INI file that was read, or NULL */
+    const char *content; /* the folder that was laid over it (content.h), without links; or NULL */
+    const char *base_path; /* over this INI file, if config_path is that folder's own; or NULL */
     const char
         *config_error; /* why the file was not used and `show` runs with the defaults, or NULL */
 
