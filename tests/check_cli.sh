@@ -16,7 +16,7 @@ expect() {
 
 expect 0 '' --version
 grep -q '^gnomon [0-9]' "$folder/out" || complain 'the version'
-for command in '' show render bench inspect doctor ctl compare score lesson; do
+for command in '' show render bench inspect doctor ctl compare score lesson take; do
     # shellcheck disable=SC2086
     expect 0 '' $command --help
     grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"
@@ -131,6 +131,13 @@ expect 2 'there is no lesson "acnee"; did you mean acne?' lesson acnee
 expect 2 'one lesson, or all' lesson acne leak
 expect 2 'does not go with lesson' lesson acne --shadow pcf
 expect 1 'lesson:nowhere: there is no such scene inside' render lesson:nowhere -o "$folder/a.png"
+expect 2 'take: nothing is to be taken' take
+expect 2 'take: nothing is to be taken' take "$folder" --content no
+expect 2 'take: unexpected argument "b": it takes one folder' take a b
+expect 2 'take: --rollback takes no folder' take --rollback a
+expect 1 'missing: cannot open it' take "$folder/missing" --content "$folder/content"
+expect 1 'there is no version before this one' take --rollback --content "$folder/content"
+expect 2 'does not go with take' take --size 8x8
 expect 1 'missing.png' compare "$folder/missing.png" "$folder/a.png"
 expect 1 'neither PNG nor PFM' compare "$folder/a.png" tests/check_cli.sh
 expect 2 'does not go with compare' compare a.png b.png --size 8x8

@@ -155,7 +155,8 @@ static void print_shown(const char *dir) {
     const bool has = gn_take_shown(dir, &shown);
     const char *what = shown.ini[0] ? shown.ini : shown.scene;
     if (has) printf("shown now: %s\n", what);
-    if (!has) printf("%s: nothing was taken yet\n", dir);
+    if (!has) puts("shown now: nothing that was taken");
+    printf("kept in: %s\n", dir);
 }
 
 bool gn_cli_take(const struct gn_options *options, struct gn_warnings *warnings,
