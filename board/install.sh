@@ -25,7 +25,10 @@ files() {
 644 $system/system/gnomon@.service board/systemd/gnomon@.service.in board/systemd/common.in
 644 lib/sysusers.d/gnomon.conf board/systemd/sysusers.conf
 644 lib/tmpfiles.d/gnomon.conf board/systemd/tmpfiles.conf.in
-644 lib/udev/rules.d/60-gnomon.rules board/systemd/udev.rules
+644 $system/system/gnomon-take.service board/systemd/gnomon-take.service.in board/systemd/take-common.in
+644 $system/system/gnomon-take@.service board/systemd/gnomon-take@.service.in board/systemd/take-common.in
+755 libexec/gnomon-take board/systemd/take.sh.in
+644 lib/udev/rules.d/90-gnomon.rules board/systemd/udev.rules
 END
     [ -z "$IMPORT" ] || cat << END
 755 bin/gnomon-import $B/gnomon-import

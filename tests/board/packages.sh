@@ -59,6 +59,9 @@ for unit in "$work"/units/*; do
 done
 systemd-analyze security --offline=yes --threshold=10 "$work/units/gnomon.service" | tail -n 1 ||
     complain 'the sandbox is wider than 1.0 of systemd-analyze security'
+# it mounts sticks
+systemd-analyze security --offline=yes --threshold=25 "$work/units/gnomon-take@left.service" | tail -n 1 ||
+    complain 'the sandbox of sticks is wider than 2.5 of systemd-analyze security'
 # each key that the sample has behind a semicolon is one
 sed 's/^;\(\[\|[a-z_]* =\)/\1/; s,/srv/scene.glb,scene.glb,' board/systemd/kiosk.ini > "$work/kiosk.ini"
 cp assets/sundial.glb "$work/scene.glb"
