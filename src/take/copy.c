@@ -122,8 +122,7 @@ static bool move_bytes(struct gn_take_walk *w, int from, int to, struct gn_err *
 static bool walk_file(struct gn_take_walk *w, int from, int to, const char *name,
                       struct gn_err *err) {
     const struct gn_take_files *files = w->files;
-    if (++w->count > w->limits.files)
-        return gn_fail(err, "%s: more than %d files", w->path, w->limits.files);
+    w->count++;
     if (to < 0) return move_bytes(w, from, -1, err);
     const int copy =
         files->open(files->user, to, name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0644);
@@ -187,6 +186,8 @@ static bool walk_entry(struct gn_take_walk *w, int from, int to, const char *nam
     if (is_ignored(name)) return true;
     const int end = add_part(w, name, err);
     if (end < 0) return false;
+    if (++w->entries > w->limits.files)
+        return gn_fail(err, "%s: more than %d files and folders", w->path, w->limits.files);
     const int fd = open_entry(w, from, name, &info, err);
     if (fd < 0) return false;
     const bool is_file = S_ISREG(info.st_mode);

@@ -8,7 +8,7 @@ struct gn_take_walk {
     const struct gn_take_files *files;
     struct gn_take_limits limits; /* none is 0 */
     uint64_t hash, bytes;         /* of names and contents; so far */
-    int count, scenes;            /* files; scenes that lie directly in the folder */
+    int entries, count, scenes;   /* files and folders; files; scenes directly in the folder */
     bool has_ini;                 /* kiosk.ini does */
     char names[200];              /* of those scenes */
     char path[PATH_MAX];          /* what is read, for messages */

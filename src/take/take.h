@@ -22,7 +22,7 @@
 struct gn_take_limits {
     uint64_t bytes;      /* of all files; 0: 2 GB */
     uint64_t reserve;    /* bytes that stay free on the disk; 0: 64 MB */
-    int files, depth;    /* how many, and folders in each other; 0: 4096, 8 */
+    int files, depth;    /* how many, with folders, and those in each other; 0: 4096, 8 */
     int64_t patience_ns; /* how long to wait for another process; 0: a minute */
 };
 
