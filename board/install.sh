@@ -27,7 +27,7 @@ files() {
 644 lib/tmpfiles.d/gnomon.conf board/systemd/tmpfiles.conf.in
 644 $system/system/gnomon-take.service board/systemd/gnomon-take.service.in board/systemd/take-common.in
 644 $system/system/gnomon-take@.service board/systemd/gnomon-take@.service.in board/systemd/take-common.in
-755 libexec/gnomon-take board/systemd/take.sh.in
+755 lib/gnomon/take board/systemd/take.sh.in
 644 lib/udev/rules.d/90-gnomon.rules board/systemd/udev.rules
 END
     [ -z "$IMPORT" ] || cat << END
@@ -61,7 +61,7 @@ uninstall)
     files | while read -r mode target sources; do
         rm -f "$DESTDIR$PREFIX/$target"
     done
-    for folder in share/doc/gnomon share/gnomon; do
+    for folder in share/doc/gnomon share/gnomon lib/gnomon; do
         rmdir "$DESTDIR$PREFIX/$folder" 2> /dev/null || true
     done
     ;;

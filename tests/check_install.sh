@@ -26,12 +26,12 @@ for unit in gnomon gnomon@; do
 done
 
 for unit in gnomon-take gnomon-take@; do
-    for line in Type=oneshot 'ExecCondition=/opt/kiosk/bin/gnomon take$' 'ExecStart=.*/opt/kiosk/libexec/gnomon-take ' NoNewPrivileges=yes; do
+    for line in Type=oneshot 'ExecCondition=/opt/kiosk/bin/gnomon take$' 'ExecStart=.*/opt/kiosk/lib/gnomon/take ' NoNewPrivileges=yes; do
         grep -q "^$line" "$into/lib/systemd/system/$unit.service" || complain "$unit.service: $line"
     done
     ! grep -q '^\[Install\]' "$into/lib/systemd/system/$unit.service" || complain "$unit.service is to be enabled by hand"
 done
-[ -x "$into/libexec/gnomon-take" ] || complain 'gnomon-take'
+[ -x "$into/lib/gnomon/take" ] || complain 'gnomon-take'
 grep -q 'ENV{SYSTEMD_WANTS}+="gnomon-take@%k.service"' "$into/lib/udev/rules.d/90-gnomon.rules" || complain 'the rule for sticks'
 
 cp assets/sundial.glb "$folder/scene.glb"
