@@ -72,12 +72,13 @@ static void check_copy(void *shared, const void *argument) {
 
 /* ---- its texts ------------------------------------------------------------------------------ */
 
-/* The copy's folder is nobody's; the stick's is meant. */
+/* The copy's folder is nobody's; the stick's is meant. It is longer than that name. */
 static void rename_folder(char *text, const char *folder) {
-    const size_t length = strlen(folder);
+    static const char name[] = "gnomon";
+    const size_t length = strlen(folder), used = sizeof name - 1;
     for (char *at; (at = strstr(text, folder));) {
-        memcpy(at, "gnomon", 6);
-        memmove(at + 6, at + length, strlen(at + length) + 1);
+        for (size_t i = 0; i < used; i++) at[i] = name[i];
+        memmove(at + used, at + length, strlen(at + length) + 1);
     }
 }
 
