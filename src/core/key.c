@@ -171,6 +171,7 @@ static const struct {
     {"restart", 408},
     {"slow", 409},
     {"previous", 412},
+    {"tap", GN_KEY_TAP},
 };
 enum { NAMES = sizeof names / sizeof names[0] };
 

@@ -31,6 +31,7 @@ enum gn_key { /* keys that the code names; the table in key.c has more */
               GN_KEY_END = 107,
               GN_KEY_DOWN = 108,
               GN_KEY_PAGEDOWN = 109,
+              GN_KEY_TAP = 767,   /* of a touch screen or a mouse; no kernel has a key there */
               GN_KEY_COUNT = 768, /* numbers are below */
 };
 

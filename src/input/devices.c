@@ -34,15 +34,20 @@ static void on_readable(void *user, uint32_t events, int64_t now_ns) {
 static void read_state(struct gn_devices *devices, struct gn_device *d, bool first,
                        int64_t time_ns) {
     uint8_t bits[GN_KEY_BYTES] = {0};
+    struct gn_touch_state touch = {0};
+    if (d->touch.opts.kind &&
+        devices->ops->touch(devices->context, d->fd, &d->touch.opts, &touch) == 0)
+        gn_touch_set(&d->touch, &touch, time_ns);
     if (devices->ops->state(devices->context, d->fd, bits) == 0)
         gn_keys_set_all(devices->keys, &d->keys, bits, first, time_ns);
 }
 
 static void add_device(struct gn_devices *devices, const char *path, int64_t now_ns) {
-    struct gn_device found = {.fd = -1}, *d = NULL;
-    snprintf(found.path, sizeof found.path, "%s", path);
-    const int error =
-        devices->ops->open(devices->context, path, devices->keys->bound, found.has, &found.fd);
+    const struct gn_evdev_wish wish = {.bound = devices->keys->bound,
+                                       .pointers = devices->pointers};
+    struct gn_evdev_found found = {.fd = -1};
+    struct gn_device *d = NULL;
+    const int error = devices->ops->open(devices->context, path, &wish, &found);
     devices->denied += error == EACCES || error == EPERM;
     if (error) return;
     for (int i = 0; i < GN_DEVICES_MAX && !d; i++)
@@ -55,8 +60,11 @@ static void add_device(struct gn_devices *devices, const char *path, int64_t now
         devices->full = true;
         return;
     }
-    *d = found;
-    d->all = devices;
+    *d = (struct gn_device){.fd = found.fd, .all = devices};
+    snprintf(d->path, sizeof d->path, "%s", path);
+    memcpy(d->has, found.has, sizeof d->has);
+    if (found.touch.kind == GN_TOUCH_SCREEN) found.touch.rotate_deg = devices->touch_rotate_deg;
+    if (found.touch.kind) gn_touch_init(&d->touch, &found.touch);
     d->watch = (struct gn_watch){.fd = d->fd, .events = EPOLLIN, .call = on_readable, .user = d};
     if (!gn_loop_add(devices->loop, &d->watch)) {
         close(d->fd);
@@ -89,7 +97,42 @@ bool gn_devices_have(const struct gn_devices *devices, unsigned key) {
     return false;
 }
 
+bool gn_devices_are_held(const struct gn_devices *devices, int64_t now_ns) {
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        if (devices->list[i].fd >= 0 && gn_touch_is_held(&devices->list[i].touch, now_ns))
+            return true;
+    return false;
+}
+
+int gn_devices_pointers(const struct gn_devices *devices) {
+    int count = 0;
+    for (int i = 0; i < GN_DEVICES_MAX; i++)
+        count += devices->list[i].fd >= 0 && devices->list[i].touch.opts.kind;
+    return count;
+}
+
 /* ---- reading devices ----------------------------------------------------------------------- */
+
+static void take_event(struct gn_devices *devices, struct gn_device *d, const struct input_event *e,
+                       int64_t time_ns) {
+    if (e->type == EV_SYN && e->code == SYN_DROPPED) d->dropped = true;
+    if (e->type == EV_SYN && e->code == SYN_REPORT && d->dropped) {
+        d->dropped = false; /* events were lost: reads the state of all keys and fingers */
+        read_state(devices, d, false, time_ns);
+        return;
+    }
+    const bool repeats = e->type == EV_KEY && (e->value < 0 || e->value > 1); /* autorepeat */
+    if (d->dropped || repeats) return;
+    if (e->type == EV_KEY) gn_keys_set(devices->keys, &d->keys, e->code, e->value, time_ns);
+    if (d->touch.opts.kind && gn_touch_event(&d->touch, e->type, e->code, e->value, time_ns))
+        gn_keys_click(devices->keys, GN_KEY_TAP, time_ns);
+}
+
+static void collect_moves(struct gn_devices *devices, struct gn_device *d) {
+    const bool is_mouse = d->touch.opts.kind == GN_TOUCH_MOUSE;
+    gn_touch_add(is_mouse ? &devices->mouse : &devices->glass, &d->touch.moves);
+    d->touch.moves = (struct gn_touch_moves){0};
+}
 
 /* Reads all pending events. Returns true if the device is gone. */
 static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
@@ -108,14 +151,7 @@ static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t
             const int64_t time_ns = gn_gesture_sane_time_ns(
                 (int64_t)e->input_event_sec * GN_NS_PER_S + (int64_t)e->input_event_usec * 1000,
                 now_ns);
-            if (e->type == EV_SYN && e->code == SYN_DROPPED) d->dropped = true;
-            if (e->type == EV_SYN && e->code == SYN_REPORT && d->dropped) {
-                d->dropped = false; /* events were lost: reads the state of all keys */
-                read_state(devices, d, false, time_ns);
-            }
-            const bool repeats = e->value < 0 || e->value > 1; /* autorepeat */
-            if (e->type == EV_KEY && !d->dropped && !repeats)
-                gn_keys_set(devices->keys, &d->keys, e->code, e->value, time_ns);
+            take_event(devices, d, e, time_ns);
         }
     }
     return false;
@@ -130,6 +166,8 @@ static void open_devices(struct gn_input *input, const struct gn_input_world *wo
     input->devices.timer = &input->timer;
     input->devices.reports = &input->reports;
     input->devices.keys = &input->keys;
+    input->devices.pointers = input->opts.pointers;
+    input->devices.touch_rotate_deg = input->opts.touch_rotate_deg;
     if (!input->opts.devices) return;
     gn_devices_search(&input->devices, now_ns);
     if (input->folder_watch < 0) input->poll_ns = now_ns + 2 * GN_NS_PER_S;
@@ -144,7 +182,10 @@ static void read_devices(struct gn_input *input, int64_t now_ns) {
     struct gn_devices *devices = &input->devices;
     bool gone = false;
     for (int i = 0; i < GN_DEVICES_MAX; i++)
-        if (devices->list[i].readable) gone |= read_device(devices, &devices->list[i], now_ns);
+        if (devices->list[i].readable) {
+            gone |= read_device(devices, &devices->list[i], now_ns);
+            collect_moves(devices, &devices->list[i]);
+        }
     if (gone) gn_devices_search(devices, now_ns);
 }
 

@@ -1,21 +1,36 @@
-/* Keys of the kernel's input devices (evdev): keyboards, remote controls, gpio-keys. Only devices
- * with a bound key are opened, and only bound keys wake us; none is grabbed, so a power key keeps
- * its function. */
+/* The kernel's input devices (evdev): keys of keyboards, remote controls, gpio-keys; touch screens
+ * and mice. Only devices with a bound key or a wanted pointer are opened, and only what is wanted
+ * of them wakes us; none is grabbed, so a power key keeps its function. */
 #ifndef GN_INPUT_DEVICES_H
 #define GN_INPUT_DEVICES_H
 
 #include "core/loop.h"
+#include "input/input.h"
 #include "input/keys.h"
 #include "input/report.h"
+#include "input/touch.h"
 
 enum { GN_DEVICES_MAX = 16 };
 
+struct gn_evdev_wish {
+    const uint8_t *bound; /* keys: GN_KEY_BYTES */
+    enum gn_pointers pointers;
+};
+struct gn_evdev_found {
+    int fd;
+    uint8_t has[GN_KEY_BYTES];  /* all keys of the device */
+    struct gn_touch_opts touch; /* kind GN_TOUCH_NONE: no pointer, or not wanted */
+    char name[80];
+};
 struct gn_evdev_ops { /* each returns 0 or an errno value */
-    /* Opens a non-blocking descriptor that reports the bound keys (GN_KEY_BYTES) with monotonic
-     * times; has: all keys of the device. ENOTSUP: none of them is bound. */
-    int (*open)(void *context, const char *path, const uint8_t *bound, uint8_t *has, int *fd);
-    /* Reads which keys are down. */
+    /* Opens a non-blocking descriptor that reports what is wanted with monotonic times. ENOTSUP:
+     * the device has nothing of it. */
+    int (*open)(void *context, const char *path, const struct gn_evdev_wish *wish,
+                struct gn_evdev_found *out);
+    /* Reads which keys are down (GN_KEY_BYTES); touch: where fingers are, and buttons. */
     int (*state)(void *context, int fd, uint8_t *bits);
+    int (*touch)(void *context, int fd, const struct gn_touch_opts *opts,
+                 struct gn_touch_state *out);
 };
 extern const struct gn_evdev_ops gn_evdev;
 
@@ -28,6 +43,7 @@ struct gn_device {
     bool dropped; /* SYN_DROPPED: events are invalid until the next report */
     uint8_t has[GN_KEY_BYTES];
     struct gn_key_source keys;
+    struct gn_touch touch; /* zeroed: it is none */
 };
 struct gn_devices {
     const struct gn_evdev_ops *ops;
@@ -37,9 +53,12 @@ struct gn_devices {
     struct gn_timer *timer; /* armed when a device becomes readable */
     struct gn_keys *keys;
     struct gn_reports *reports;
+    enum gn_pointers pointers; /* that are opened, too */
+    unsigned touch_rotate_deg; /* as in gn_touch_opts */
     struct gn_device list[GN_DEVICES_MAX];
-    int denied; /* devices without read permission in the last search */
-    bool full;  /* the limit was reported */
+    struct gn_touch_moves glass, mouse; /* of all devices, since they were taken */
+    int denied;                         /* devices without read permission in the last search */
+    bool full;                          /* the limit was reported */
 };
 
 void gn_devices_init(struct gn_devices *devices); /* Initialises `list`; the fields above it are set
@@ -48,5 +67,9 @@ void gn_devices_init(struct gn_devices *devices); /* Initialises `list`; the fie
 void gn_devices_search(struct gn_devices *devices, int64_t now_ns);
 /* Whether an open device has this key. */
 bool gn_devices_have(const struct gn_devices *devices, unsigned key);
+/* Whether a finger or a button of a mouse is down. */
+bool gn_devices_are_held(const struct gn_devices *devices, int64_t now_ns);
+/* The number of open touch screens and mice. */
+int gn_devices_pointers(const struct gn_devices *devices);
 
 #endif

@@ -1,4 +1,4 @@
-/* linux/input.h, Documentation/input/input.rst and event-codes.rst. */
+/* linux/input.h, Documentation/input/input.rst, event-codes.rst and multi-touch-protocol.rst. */
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/input.h>
@@ -9,36 +9,180 @@
 
 #include "input/devices.h"
 
-static int open_device(void *context, const char *path, const uint8_t *bound, uint8_t *has,
-                       int *out) {
+_Static_assert(KEY_CNT == GN_KEY_COUNT, "keys are numbered as the kernel does");
+
+struct abilities {
+    uint8_t keys[GN_KEY_BYTES], abs[ABS_CNT / 8], rel[REL_CNT / 8 + 1], props[INPUT_PROP_CNT / 8];
+};
+
+static bool has(const uint8_t *bits, unsigned code) { return bits[code / 8] >> code % 8 & 1; }
+
+static void put(uint8_t *bits, unsigned code) { bits[code / 8] |= (uint8_t)(1u << code % 8); }
+
+/* ---- what a device is ---- */
+
+static bool has_slots(const struct abilities *a) {
+    /* a device with all axes is no touch screen */
+    return has(a->abs, ABS_MT_SLOT) && !has(a->abs, ABS_MT_SLOT - 1) &&
+           has(a->abs, ABS_MT_TRACKING_ID) && has(a->abs, ABS_MT_POSITION_X) &&
+           has(a->abs, ABS_MT_POSITION_Y);
+}
+
+/* As udev tells them apart, whose answers a bare board does not have. Touchpads and drawing tablets
+ * beside a screen are none of them. */
+static enum gn_touch_kind kind_of(const struct abilities *a) {
+    const bool touch = has(a->keys, BTN_TOUCH), left = has(a->keys, BTN_LEFT),
+               direct = has(a->props, INPUT_PROP_DIRECT),
+               apart = !direct && (has(a->keys, BTN_TOOL_FINGER) || has(a->keys, BTN_TOOL_PEN) ||
+                                   has(a->keys, BTN_STYLUS)),
+               plane = has(a->abs, ABS_X) && has(a->abs, ABS_Y);
+    if (has(a->props, INPUT_PROP_ACCELEROMETER) || apart) return GN_TOUCH_NONE;
+    if (has_slots(a) && (touch || direct)) return GN_TOUCH_SCREEN;
+    if (plane && touch && (direct || !left)) return GN_TOUCH_SCREEN;
+    if (plane && left) return GN_TOUCH_TABLET;
+    return has(a->rel, REL_X) && has(a->rel, REL_Y) && left ? GN_TOUCH_MOUSE : GN_TOUCH_NONE;
+}
+
+static void read_axis(int fd, unsigned code, struct gn_touch_axis *out) {
+    struct input_absinfo info = {0};
+    if (ioctl(fd, EVIOCGABS(code), &info) < 0) return;
+    *out = (struct gn_touch_axis){info.minimum, info.maximum, info.resolution};
+}
+
+static int read_abilities(int fd, struct abilities *out) {
+    if (ioctl(fd, EVIOCGBIT(EV_KEY, sizeof out->keys), out->keys) < 0) return errno;
+    (void)ioctl(fd, EVIOCGBIT(EV_ABS, sizeof out->abs), out->abs);
+    (void)ioctl(fd, EVIOCGBIT(EV_REL, sizeof out->rel), out->rel);
+    (void)ioctl(fd, EVIOCGPROP(sizeof out->props), out->props);
+    return 0;
+}
+
+static void find_touch(int fd, const struct abilities *a, enum gn_pointers wanted,
+                       struct gn_touch_opts *out) {
+    const enum gn_touch_kind kind = kind_of(a);
+    *out = (struct gn_touch_opts){0};
+    if (wanted == GN_POINTERS_NONE || (wanted == GN_POINTERS_TOUCH && kind != GN_TOUCH_SCREEN))
+        return;
+    out->kind = kind;
+    out->has_slots = kind == GN_TOUCH_SCREEN && has_slots(a);
+    if (kind != GN_TOUCH_SCREEN && kind != GN_TOUCH_TABLET) return;
+    read_axis(fd, out->has_slots ? ABS_MT_POSITION_X : ABS_X, &out->x);
+    read_axis(fd, out->has_slots ? ABS_MT_POSITION_Y : ABS_Y, &out->y);
+}
+
+/* ---- opening ---- */
+
+static void set_mask(int fd, uint32_t type, const uint8_t *bits, uint32_t size) {
+    const struct input_mask mask = {.type = type, .codes_size = size, .codes_ptr = (uintptr_t)bits};
+    (void)ioctl(fd, EVIOCSMASK, &mask); /* kernels before 4.4 lack it */
+}
+
+/* Only what is wanted wakes us: not typing, a pressure, or a pointer that nobody asked for. */
+static void set_masks(int fd, const uint8_t *bound, const struct gn_touch_opts *touch) {
+    struct abilities want = {0};
+    uint8_t types[EV_CNT / 8] = {0};
+    const enum gn_touch_kind kind = touch->kind;
+    memcpy(want.keys, bound, sizeof want.keys);
+    if (kind == GN_TOUCH_SCREEN) put(want.keys, BTN_TOUCH);
+    if (kind == GN_TOUCH_TABLET || kind == GN_TOUCH_MOUSE) {
+        put(want.keys, BTN_LEFT);
+        put(want.keys, BTN_RIGHT);
+        put(want.keys, BTN_MIDDLE);
+        put(want.rel, REL_WHEEL);
+    }
+    if (kind == GN_TOUCH_MOUSE) {
+        put(want.rel, REL_X);
+        put(want.rel, REL_Y);
+    } else if (touch->has_slots) {
+        put(want.abs, ABS_MT_SLOT);
+        put(want.abs, ABS_MT_TRACKING_ID);
+        put(want.abs, ABS_MT_POSITION_X);
+        put(want.abs, ABS_MT_POSITION_Y);
+    } else if (kind) {
+        put(want.abs, ABS_X);
+        put(want.abs, ABS_Y);
+    }
+    put(types, EV_SYN);
+    put(types, EV_KEY);
+    if (kind) put(types, EV_ABS);
+    if (kind) put(types, EV_REL);
+    set_mask(fd, EV_KEY, want.keys, sizeof want.keys);
+    set_mask(fd, EV_ABS, want.abs, sizeof want.abs);
+    set_mask(fd, EV_REL, want.rel, sizeof want.rel);
+    set_mask(fd, EV_SYN, types, sizeof types);
+}
+
+static int open_device(void *context, const char *path, const struct gn_evdev_wish *wish,
+                       struct gn_evdev_found *out) {
     (void)context;
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0) return errno;
-    int clock = CLOCK_MONOTONIC, error = 0;
+    int clock = CLOCK_MONOTONIC;
     bool any = false;
-    if (ioctl(fd, EVIOCGBIT(EV_KEY, GN_KEY_BYTES), has) < 0) error = errno;
-    for (int i = 0; i < GN_KEY_BYTES; i++) any |= has[i] & bound[i];
-    if (!error && !any) error = ENOTSUP;
+    struct abilities a = {0};
+    int error = read_abilities(fd, &a);
+    memcpy(out->has, a.keys, sizeof out->has);
+    for (int i = 0; i < GN_KEY_BYTES; i++) any |= a.keys[i] & wish->bound[i];
+    find_touch(fd, &a, wish->pointers, &out->touch);
+    if (!error && !any && !out->touch.kind) error = ENOTSUP;
     if (!error && ioctl(fd, EVIOCSCLOCKID, &clock)) error = errno;
     if (error) {
         close(fd);
         return error;
     }
-    /* only bound keys wake us, not pointer motion or typing; kernels before 4.4 lack EVIOCSMASK */
-    const uint8_t types[EV_CNT / 8] = {1u << EV_SYN | 1u << EV_KEY};
-    const struct input_mask keys = {
-        .type = EV_KEY, .codes_size = GN_KEY_BYTES, .codes_ptr = (uintptr_t)bound};
-    const struct input_mask all = {
-        .type = EV_SYN, .codes_size = sizeof types, .codes_ptr = (uintptr_t)types};
-    (void)ioctl(fd, EVIOCSMASK, &keys);
-    (void)ioctl(fd, EVIOCSMASK, &all);
-    *out = fd;
+    if (ioctl(fd, EVIOCGNAME(sizeof out->name - 1), out->name) < 0) out->name[0] = '\0';
+    set_masks(fd, wish->bound, &out->touch);
+    out->fd = fd;
     return 0;
 }
+
+/* ---- states ---- */
 
 static int read_state(void *context, int fd, uint8_t *bits) {
     (void)context;
     return ioctl(fd, EVIOCGKEY(GN_KEY_BYTES), bits) < 0 ? errno : 0;
 }
 
-const struct gn_evdev_ops gn_evdev = {.open = open_device, .state = read_state};
+static int32_t read_value(int fd, unsigned code) {
+    struct input_absinfo info = {0};
+    return ioctl(fd, EVIOCGABS(code), &info) < 0 ? 0 : info.value;
+}
+
+static int read_slots(int fd, unsigned code, int32_t *out) {
+    struct {
+        uint32_t code;
+        int32_t values[GN_TOUCH_SLOTS];
+    } request = {.code = code};
+    if (ioctl(fd, EVIOCGMTSLOTS(sizeof request), &request) < 0) return errno;
+    memcpy(out, request.values, sizeof request.values);
+    return 0;
+}
+
+static int read_touch(void *context, int fd, const struct gn_touch_opts *opts,
+                      struct gn_touch_state *out) {
+    uint8_t keys[GN_KEY_BYTES] = {0};
+    struct input_absinfo slots = {0};
+    *out = (struct gn_touch_state){0};
+    if (opts->has_slots) {
+        int error = read_slots(fd, ABS_MT_TRACKING_ID, out->id);
+        if (!error) error = read_slots(fd, ABS_MT_POSITION_X, out->x);
+        if (!error) error = read_slots(fd, ABS_MT_POSITION_Y, out->y);
+        if (!error && ioctl(fd, EVIOCGABS(ABS_MT_SLOT), &slots) < 0) error = errno;
+        out->slot = slots.value;
+        /* the kernel leaves those untouched that the device does not have */
+        for (int i = 0; i < GN_TOUCH_SLOTS; i++)
+            if (i > slots.maximum) out->id[i] = -1;
+        return error;
+    }
+    const int error = read_state(context, fd, keys);
+    const bool screen = opts->kind == GN_TOUCH_SCREEN;
+    out->x[0] = read_value(fd, ABS_X);
+    out->y[0] = read_value(fd, ABS_Y);
+    out->buttons[0] = has(keys, screen ? BTN_TOUCH : BTN_LEFT);
+    out->buttons[1] = !screen && has(keys, BTN_RIGHT);
+    out->buttons[2] = !screen && has(keys, BTN_MIDDLE);
+    return error;
+}
+
+const struct gn_evdev_ops gn_evdev = {
+    .open = open_device, .state = read_state, .touch = read_touch};

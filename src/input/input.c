@@ -172,6 +172,17 @@ bool gn_input_next(struct gn_input *input, struct gn_gesture_event *out) {
     return gn_gestures_next(&input->gestures, out);
 }
 
+struct gn_input_moves gn_input_take_moves(struct gn_input *input, int64_t now_ns) {
+    struct gn_devices *devices = &input->devices;
+    const struct gn_input_moves moves = {.glass = devices->glass,
+                                         .mouse = devices->mouse,
+                                         .held = gn_devices_are_held(devices, now_ns)};
+    devices->glass = devices->mouse = (struct gn_touch_moves){0};
+    return moves;
+}
+
+int gn_input_pointers(const struct gn_input *input) { return gn_devices_pointers(&input->devices); }
+
 bool gn_input_report(struct gn_input *input, char *out, size_t size) {
     report_notes(input);
     return gn_report_next(&input->reports, out, size);

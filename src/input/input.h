@@ -13,6 +13,9 @@
 #include "core/warn.h"
 #include "input/gesture.h"
 #include "input/gpio.h"
+#include "input/touch.h"
+
+enum gn_pointers { GN_POINTERS_NONE, GN_POINTERS_TOUCH /* touch screens */, GN_POINTERS_ALL };
 
 struct gn_button_opts { /* zero means the default written beside; texts outlive the input */
     const char *name;   /* as in [button "NAME"] */
@@ -36,6 +39,8 @@ struct gn_input_opts {
     bool terminal; /* read keys from stdin if it is a terminal; on a text console, except those that
                       an input device has */
     bool devices;  /* read input devices (evdev) */
+    enum gn_pointers pointers; /* of them, beside keys: none */
+    unsigned touch_rotate_deg; /* how touch screens are mounted; as in gn_touch_opts */
     const char *script; /* file of "TIME_S down|up|click KEY-OR-BUTTON" lines (script.h), times
                            since opening; NULL: none. Buttons named in it have no other line */
 };
@@ -52,6 +57,13 @@ void gn_input_key(struct gn_input *input, const struct gn_key_event *event);
 /* Returns the next gesture in order, or false. Call after each step of the loop and after
  * gn_input_key until it returns false. At most 20 a second per button. */
 bool gn_input_next(struct gn_input *input, struct gn_gesture_event *out);
+struct gn_input_moves { /* by hand, since they were taken */
+    struct gn_touch_moves glass, mouse;
+    bool held; /* a finger or a button of a mouse is down */
+};
+/* Call after each step of the loop. Taps are presses of the key "tap". */
+struct gn_input_moves gn_input_take_moves(struct gn_input *input, int64_t now_ns);
+int gn_input_pointers(const struct gn_input *input); /* number of open touch screens and mice */
 /* The next unread line for the log ("button \"next\": held for 30 s; ignored until released"), or
  * false. Each is reported once until it changes. */
 bool gn_input_report(struct gn_input *input, char *out, size_t size);

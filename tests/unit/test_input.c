@@ -24,21 +24,24 @@ static struct {
     int write_fd;
     int error; /* of open */
     uint8_t down[GN_KEY_BYTES];
+    struct gn_touch_opts glass; /* zeroed: it is a keyboard only */
+    struct gn_touch_state fingers;
 } keyboards[DEVICES];
 static char folder[64];
 
 static int number_of(const char *path) { return atoi(strrchr(path, '/') + strlen("/event")); }
 
-static int open_keyboard(void *context, const char *path, const uint8_t *bound, uint8_t *has,
-                         int *fd) {
+static int open_keyboard(void *context, const char *path, const struct gn_evdev_wish *wish,
+                         struct gn_evdev_found *out) {
     (void)context;
     int ends[2];
     const int i = number_of(path);
     if (keyboards[i].error) return keyboards[i].error;
     if (pipe2(ends, O_NONBLOCK | O_CLOEXEC)) return errno;
     keyboards[i].write_fd = ends[1];
-    *fd = ends[0];
-    memcpy(has, bound, GN_KEY_BYTES);
+    out->fd = ends[0];
+    memcpy(out->has, wish->bound, GN_KEY_BYTES);
+    if (wish->pointers) out->touch = keyboards[i].glass;
     return 0;
 }
 
@@ -50,7 +53,17 @@ static int read_state(void *context, int fd, uint8_t *bits) {
     memcpy(bits, keyboards[only_keyboard].down, GN_KEY_BYTES);
     return 0;
 }
-static const struct gn_evdev_ops evdev = {.open = open_keyboard, .state = read_state};
+
+static int read_fingers(void *context, int fd, const struct gn_touch_opts *glass,
+                        struct gn_touch_state *out) {
+    (void)context;
+    (void)fd;
+    assert_int_equal(glass->kind, keyboards[only_keyboard].glass.kind);
+    *out = keyboards[only_keyboard].fingers;
+    return 0;
+}
+static const struct gn_evdev_ops evdev = {
+    .open = open_keyboard, .state = read_state, .touch = read_fingers};
 
 static void plug(int i) {
     char path[96];
@@ -197,6 +210,107 @@ static void test_without_anything_it_sleeps(void **state) {
     assert_true(input->timer.due_ns == INT64_MAX);
     assert_false(wakes(0));
     assert_nothing();
+}
+
+/* ---- touch screens -------------------------------------------------------------------------- */
+
+static void finger(int i, int id, int x, int64_t time_ns) {
+    send(i, EV_ABS, ABS_MT_TRACKING_ID, id, time_ns);
+    if (id >= 0) send(i, EV_ABS, ABS_MT_POSITION_X, x, time_ns);
+    send(i, EV_SYN, SYN_REPORT, 0, time_ns);
+}
+
+static void plug_glass(int i) {
+    keyboards[i].glass = (struct gn_touch_opts){
+        .kind = GN_TOUCH_SCREEN, .has_slots = true, .x = {0, 1000, 0}, .y = {0, 1000, 0}};
+    for (int k = 0; k < GN_TOUCH_SLOTS; k++) keyboards[i].fingers.id[k] = -1;
+    plug(i);
+}
+
+static void open_for_touches(void) {
+    buttons[0].keys = "space tap";
+    opts.pointers = GN_POINTERS_TOUCH;
+    open_input();
+}
+
+static void assert_turned(double right, bool held, int64_t after_ns) {
+    const struct gn_input_moves moves = gn_input_take_moves(input, start_ns + after_ns);
+    assert_float_equal((double)moves.glass.turn[0], right, 1e-6);
+    assert_int_equal(moves.held, held);
+}
+
+static void test_a_tap_is_a_key_and_a_drag_is_a_move(void **state) {
+    (void)state;
+    plug_glass(0);
+    open_for_touches();
+    assert_int_equal(gn_input_pointers(input), 1);
+    finger(0, 1, 500, start_ns + 10 * MS);
+    assert_true(wakes(20 * MS));
+    assert_turned(0, true, 20 * MS);
+    finger(0, -1, 0, start_ns + 60 * MS);
+    dispatch(70 * MS);
+    assert_gesture(0, GN_GESTURE_PRESS, 60 * MS);
+    assert_gesture(0, GN_GESTURE_CLICK, 60 * MS);
+    finger(0, 2, 500, start_ns + 110 * MS);
+    finger(0, 2, 550, start_ns + 120 * MS);
+    finger(0, 2, 750, start_ns + 130 * MS);
+    dispatch(140 * MS);
+    assert_turned(.2, true, 140 * MS);
+    assert_turned(0, true, 140 * MS); /* taken */
+    finger(0, -1, 0, start_ns + 150 * MS);
+    dispatch(160 * MS);
+    assert_turned(0, false, 160 * MS);
+    assert_nothing();
+    assert_false(wakes(10 * GN_NS_PER_S));
+}
+
+static void test_glass_that_is_pulled_out_holds_nothing(void **state) {
+    (void)state;
+    plug_glass(0);
+    open_for_touches();
+    finger(0, 1, 500, start_ns + 10 * MS);
+    dispatch(20 * MS);
+    assert_turned(0, true, 20 * MS);
+    unplug(0);
+    dispatch(30 * MS);
+    assert_turned(0, false, 30 * MS);
+    assert_int_equal(gn_input_pointers(input), 0);
+    assert_nothing();
+    plug_glass(0);
+    dispatch(40 * MS);
+    finger(0, 1, 500, start_ns + 50 * MS);
+    finger(0, -1, 500, start_ns + 60 * MS);
+    dispatch(70 * MS);
+    assert_gesture(0, GN_GESTURE_PRESS, 60 * MS);
+}
+
+static void test_a_finger_from_before_and_lost_events_do_not_tap(void **state) {
+    (void)state;
+    plug_glass(0);
+    keyboards[0].fingers.id[0] = 9; /* down already */
+    keyboards[0].fingers.x[0] = 100;
+    open_for_touches();
+    assert_turned(0, true, 0);
+    finger(0, -1, 0, start_ns + 10 * MS);
+    dispatch(20 * MS);
+    finger(0, 10, 300, start_ns + 30 * MS);
+    dispatch(40 * MS);
+    keyboards[0].fingers.id[0] = -1; /* lifted, and the kernel's queue was full */
+    send(0, EV_SYN, SYN_DROPPED, 0, start_ns + 50 * MS);
+    finger(0, 11, 900, start_ns + 60 * MS);
+    dispatch(70 * MS);
+    assert_turned(0, false, 70 * MS);
+    assert_nothing();
+}
+
+static void test_touches_that_are_not_wanted_are_not_read(void **state) {
+    (void)state;
+    plug_glass(0);
+    open_input(); /* for its keys alone */
+    assert_int_equal(gn_input_pointers(input), 0);
+    finger(0, 1, 500, start_ns + 10 * MS);
+    dispatch(20 * MS);
+    assert_turned(0, false, 20 * MS);
 }
 
 /* ---- devices ------------------------------------------------------------------------------- */
@@ -398,6 +512,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(test_what_is_said_wrongly_is_wrong_usage),
         TEST(test_without_anything_it_sleeps),
+        TEST(test_a_tap_is_a_key_and_a_drag_is_a_move),
+        TEST(test_glass_that_is_pulled_out_holds_nothing),
+        TEST(test_a_finger_from_before_and_lost_events_do_not_tap),
+        TEST(test_touches_that_are_not_wanted_are_not_read),
         TEST(test_a_key_of_a_device_is_its_button),
         TEST(test_a_device_that_comes_later_is_heard),
         TEST(test_a_device_that_goes_ends_what_it_held),
