@@ -31,6 +31,8 @@ GN_OPTION(.name = "texture-limit", .section = "scene", .kind = GN_KIND_LEVEL, .m
 GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
           .unit = "degrees per second", .fallback = "0",
           .help = "turn the camera around the scene", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
+GN_OPTION(.name = "turntable-rest", .section = "scene", .kind = GN_KIND_SECONDS, .max = 86400, .value = "S", .unit = "seconds", .fallback = "5",
+          .help = "the turntable rests while the view is turned by hand, and so much longer; then it goes on from there. 0: it never rests", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_rest_ns))
 /* the picture */
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
           .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
@@ -161,11 +163,15 @@ GN_OPTION(.name = "range", .section = "display", .kind = GN_KIND_CHOICE, .choice
           .help = "levels of the signal to the monitor: as the driver chooses, full, or limited to 16 to 235, as televisions have them", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.range))
 GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
           .help = "use legacy KMS instead of atomic", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
+GN_OPTION(.name = "touch-rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees", .fallback = "0",
+          .help = "how a touch screen's glass is mounted on its panel, if it is turned clockwise against it; with rotate touches are turned anyway", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.touch_rotate_deg))
 /* what a kiosk does by itself */
 GN_OPTION(.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = idles, .value = "WHAT", .fallback = "none",
           .help = "after the idle timeout go to the first mode, or to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))
 GN_OPTION(.name = "idle-after", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds",
           .fallback = "60", .help = "idle timeout", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle_after_ns))
+GN_OPTION(.name = "pointer", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = pointers, .value = "WHICH", .fallback = "touch",
+          .help = "what turns the model on a screen without a desktop: touch screens, all (mice, too; none is drawn) or none", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.pointer))
 GN_OPTION(.name = "while-playing", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = playings, .value = "WHAT", .fallback = "act",
           .help = "buttons while play CLIP plays: act as ever (play again begins anew), or ignore presses", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.plays_alone))
 GN_OPTION(.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",

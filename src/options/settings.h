@@ -87,6 +87,7 @@ struct gn_scene_settings {
     bool animation_restart;
     int64_t time_ns;
     double turntable_deg_s;
+    int64_t turntable_rest_ns;
     double floor_m;          /* y of the shadow catcher; NAN: automatic, INFINITY: none */
     double texture_limit_px; /* NAN: automatic, INFINITY: none */
 };
@@ -145,11 +146,13 @@ struct gn_display_settings {
     struct gn_display_mode max_mode;
     const char *modeline;
     int rotate_deg, max_fps; /* 0: as fast as the display */
+    int touch_rotate_deg;
     bool legacy;
     int range; /* enum gn_screen_range */
 };
 struct gn_kiosk_settings {
     int idle;        /* enum gn_idle */
+    int pointer;     /* enum gn_pointers */
     int plays_alone; /* buttons do nothing while a clip plays once */
     int64_t idle_after_ns, fade_ns, clip_fade_ns;
     const char *socket;      /* NULL: see gn_listen_default() */

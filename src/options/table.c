@@ -5,6 +5,7 @@
 
 #include "display/display.h"
 #include "frame/frame.h"
+#include "input/input.h"
 #include "options/action.h"
 #include "options/settings.h"
 
@@ -80,6 +81,8 @@ static const struct gn_choice map_ends[] = {{"far", 0}, {"near", 1}, {0}};
 static const struct gn_choice slide_aspects[] = {{"square", 0}, {"picture", 1}, {0}};
 static const struct gn_choice light_colors[] = {{"auto", -1}, {0}};
 static const struct gn_choice follows[] = {{"world", 0}, {"camera", 1}, {0}};
+static const struct gn_choice pointers[] = {
+    {"touch", GN_POINTERS_TOUCH}, {"all", GN_POINTERS_ALL}, {"none", GN_POINTERS_NONE}, {0}};
 static const struct gn_choice playings[] = {{"act", 0}, {"ignore", 1}, {0}};
 static const struct gn_choice offs[] = {{"dpms", 0},
                                         {"black", GN_OFF_BLACK},
