@@ -111,6 +111,8 @@ bool gn_show_look_at_first(const struct gn_show *s, struct gn_options *o, struct
 bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
     const int frames = s->stage.settings->run.frames;
     s->counts.most_frames = frames > 0 && !s->reload.first ? (uint64_t)frames : UINT64_MAX;
+    s->hand = (struct gn_show_hand){0};
+    s->stage.rested_ns = 0;
     gn_show_list_modes(s);
     gn_truth_drop(s);
     s->truth = (struct gn_show_truth){0};

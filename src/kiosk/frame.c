@@ -16,7 +16,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
     if (view.dark && s->drawn.dark) return false; /* black stays black */
     const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.fade < 1 ||
                        (!view.stands && (view.clip >= 0 || !gn_pose_stands(&s->stage.pose) ||
-                                         s->stage.settings->scene.turntable_deg_s != 0.0));
+                                         gn_show_turntable_moves(s)));
     const struct gn_kiosk_view *drawn = &s->drawn;
     const bool differs =
         view.dark != drawn->dark || view.mode != drawn->mode || view.scene != drawn->scene ||
@@ -61,6 +61,7 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     s->stage.frame_opts.dimmed = s->hours.dims && !is_bare ? 1.0f - (float)hours->dim_to : 0.0f;
     if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
+    gn_show_step_turntable(s, seen_ns, scene_ns);
     bool left_is_behind = false;
     if (s->split.on && !gn_split_draw_left(s, scene_ns, &left_is_behind, err)) return false;
     if (!(s->truth.on ? gn_truth_draw(s, scene_ns, err)

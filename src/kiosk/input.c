@@ -17,6 +17,8 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
         .buttons = s->buttons.opts,
         .terminal = !s->stage.display.ops->is_window,
         .devices = s->stage.display.ops->is_console,
+        .pointers = (enum gn_pointers)s->stage.settings->kiosk.pointer,
+        .touch_rotate_deg = (unsigned)s->stage.settings->display.touch_rotate_deg,
         .script = s->stage.settings->run.input_script,
     };
     s->buttons.input = gn_input_open(&opts, gn_loop_now_ns(s->loop), s->warnings, err);

@@ -205,6 +205,7 @@ static void check_timeouts(const struct gn_kiosk_rules *rules, struct gn_kiosk *
         s->play.clip_plus_1 > 0 || now_ns - s->used_ns < rules->idle_after_ns)
         return;
     s->used_ns = now_ns;
+    s->idled++;
     if (s->paused) toggle_pause(s, now_ns);
     s->info = false;
     if (rules->idle == GN_IDLE_NEXT) {

@@ -56,7 +56,9 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     int64_t fade_begun_ns;    /* monotonic; 0: no fade */
     int64_t caption_begun_ns; /* monotonic */
     enum gn_kiosk_caption caption;
-    int64_t used_ns; /* the last action, the end of a clip, or what the idle timeout did */
+    int64_t used_ns; /* the last action or move by hand, the end of a clip, or what the idle timeout
+                        did */
+    uint32_t idled;  /* how often it did: the view moved by hand is the camera's again, too */
     struct gn_kiosk_play {
         int clip_plus_1; /* that plays once; 0: none. The scene's time stands meanwhile */
         int64_t time_ns, length_ns;

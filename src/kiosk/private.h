@@ -22,6 +22,7 @@
 #include "kiosk/state.h"
 #include "kiosk/stats.h"
 #include "kiosk/truth.h"
+#include "kiosk/turntable.h"
 #include "kiosk/viewer.h"
 #include "options/binding.h"
 #include "options/change.h"
@@ -57,6 +58,11 @@ struct gn_show_buttons {
     struct gn_button_opts opts[GN_BUTTONS_MAX]; /* of the map, for the input */
     struct gn_input *input;                     /* NULL while there is none */
     struct gn_latency latency;
+};
+struct gn_show_hand { /* of who turns the view */
+    struct gn_turntable turntable;
+    bool holds; /* the window's left button */
+    bool wakes; /* a touch of a dark screen, in this step */
 };
 /* Modes: those of the INI file, else the techniques. */
 struct gn_show_modes {
@@ -210,6 +216,7 @@ struct gn_show {
     struct gn_stage stage;
     struct gn_show_context context;
     struct gn_show_buttons buttons;
+    struct gn_show_hand hand;
     struct gn_show_modes modes;
     struct gn_show_looks looks; /* of the stage's scene */
     struct gn_show_scenes scenes;
@@ -365,6 +372,15 @@ int64_t gn_show_bar_due_ns(const struct gn_show *show);
 bool gn_show_open_input(struct gn_show *show, struct gn_err *err);
 /* Turns gestures into actions, and reports of the input into warnings on stderr. */
 void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
+
+/* ---- moves.c: moves by hand to the view ------------------------------------------------------ */
+
+void gn_show_take_moves(struct gn_show *show, struct gn_pointer *pointer);
+void gn_show_wake_by_hand(struct gn_show *show); /* after gn_show_take_input() */
+void gn_show_turn_home(struct gn_show *show);    /* the view is the camera's again */
+bool gn_show_turntable_moves(const struct gn_show *show);
+int64_t gn_show_turntable_due_ns(const struct gn_show *show); /* when it goes on; INT64_MAX */
+void gn_show_step_turntable(struct gn_show *show, int64_t seen_ns, int64_t scene_ns);
 
 /* ---- begin.c: from arguments to a first mode ------------------------------------------------- */
 

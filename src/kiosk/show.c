@@ -8,7 +8,6 @@
 #include "core/arena.h"
 #include "core/clock.h"
 #include "core/stop.h"
-#include "kiosk/pointer.h"
 #include "kiosk/private.h"
 #include "kiosk/show.h"
 
@@ -34,6 +33,8 @@ static int64_t due_ns(const struct gn_show *s) {
     if (turns_ns < at_ns) at_ns = turns_ns;
     const int64_t truth_ns = gn_truth_due_ns(s);
     if (truth_ns < at_ns) at_ns = truth_ns;
+    const int64_t turntable_ns = gn_show_turntable_due_ns(s);
+    if (turntable_ns < at_ns) at_ns = turntable_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;
@@ -60,13 +61,16 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
         gn_viewer_take_keys(s, &pointer);
         gn_viewer_set_title(s);
     }
-    s->changed |= gn_show_pointer_turn(&s->stage, &pointer);
+    gn_show_take_moves(s, &pointer);
     gn_show_take_input(s, &pointer);
+    gn_show_wake_by_hand(s);
     if (s->ends) return true;
 
     /* the machine: timeouts, and the wanted mode and scene */
     const struct gn_kiosk_event tick = {.kind = GN_KIOSK_TICK, .time_ns = gn_loop_now_ns(s->loop)};
+    const uint32_t idled = s->kiosk.idled;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
+    if (s->kiosk.idled != idled) gn_show_turn_home(s);
     const bool off = s->kiosk.blanked || (gn_kiosk_is_dark(&s->kiosk) && !s->rules.sleeps_black);
     if (off != screen->blank) gn_display_blank(&s->stage.display, off, tick.time_ns);
     gn_show_step_television(s);

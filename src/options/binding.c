@@ -6,7 +6,8 @@
 #include "core/key.h"
 
 static const struct gn_button_config defaults[] = {
-    {.opts = {.name = "next", .line = "GPIO17", .keys = "space right pagedown n", .optional = true},
+    {.opts =
+         {.name = "next", .line = "GPIO17", .keys = "space right pagedown n tap", .optional = true},
      .on[GN_GESTURE_PRESS] = {true, {.kind = GN_ACTION_NEXT}}},
     {.opts =
          {.name = "prev", .line = "GPIO27", .keys = "backspace left pageup p", .optional = true},

@@ -355,7 +355,8 @@ uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t
 void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
     gn_pose_step(&stage->pose, time_ns);
     double turned_deg =
-        fmod(stage->settings->scene.turntable_deg_s * ((double)time_ns * 1e-9), 360.0);
+        fmod(stage->settings->scene.turntable_deg_s * ((double)(time_ns - stage->rested_ns) * 1e-9),
+             360.0);
     stage->frame_opts.view.turntable_rad = glm_rad((float)turned_deg);
     gn_stage_aim(&stage->pose, &stage->frame_opts, stage->settings);
 }

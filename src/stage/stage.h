@@ -32,7 +32,8 @@ struct gn_stage {
         float *visibility; /* of the last picture's first light that is drawn with it: a value for
                               each pixel, row 0 on top; or NULL */
     } truth;
-    bool is_behind; /* as in gn_plan, of the last plan: it wants another frame */
+    int64_t rested_ns; /* how much of the scene's time the turntable has stood */
+    bool is_behind;    /* as in gn_plan, of the last plan: it wants another frame */
 };
 
 /* The limits of --limit, for the loader. */
