@@ -203,7 +203,7 @@ KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 COMPLETION := $(addprefix $(O)/completion/gnomon.,bash zsh fish)
 
 all: $(BIN) $(IMPORT) $(SCENES) man completion $(O)/gnomon.svg
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/television $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(O)/host/make_book \
+tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/touchscreen $(B)/tests/television $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(O)/host/make_book \
        $(if $(ASSIMP),$(B)/tests/hostile_assimp.so)
 man: $(O)/gnomon.1 $(O)/gnomon.ini.5
 completion: $(COMPLETION)
@@ -248,7 +248,7 @@ $(B)/tests/firstflip.so $(B)/tests/ident.so $(B)/tests/hostile_assimp.so: $(B)/f
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) -fPIC -shared \
 	    $(shell $(PKG) --cflags libdrm $(if $(ASSIMP),assimp)) $(OF_ROOT) -o $@ $(filter %.c,$^) -ldl
-$(B)/tests/keyboard $(B)/tests/television: $(B)/tests/%: tests/board/%.c $(B)/flags
+$(B)/tests/keyboard $(B)/tests/touchscreen $(B)/tests/television: $(B)/tests/%: tests/board/%.c $(B)/flags
 	@mkdir -p $(@D) && echo "link $@"
 	$(Q)$(CC) -std=c11 -D_GNU_SOURCE -O2 $(WARN) $(if $(WERROR),-Werror) $(OF_ROOT) -o $@ $<
 
@@ -345,7 +345,7 @@ check:
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED)))
 check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
 	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
-BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/television tests/tool_compare
+BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/touchscreen tests/television tests/tool_compare
 check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
 	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(BARE_GUESTS),tests/board/smoke.guest)
 	$(if $(GN_FULL),+$(SUB) check-board-arm64)
@@ -371,7 +371,7 @@ GPIOD2  := $(O)/$(shell $(CC) -dumpmachine)-$(CONFIG)
 GPIOD2_TESTS := $(addprefix $(GPIOD2)/tests/,test_gpio test_lines test_input test_gesture test_replay test_doctor_input)
 gpiod2:
 	+@root=$$(SUITE=trixie tests/board/sysroot.sh) || exit 0; $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root \
-	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(addprefix $(GPIOD2)/tests/,firstflip.so keyboard television)
+	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(addprefix $(GPIOD2)/tests/,firstflip.so keyboard touchscreen television)
 check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST) gpiod2
 	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
 check-modelviewer: $(BIN) $(B)/tests/tool_modelviewer $(B)/tests/tool_sheet $(O)/host/make_studio

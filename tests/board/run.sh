@@ -57,7 +57,7 @@ out=$(realpath -m "$build/board/$test")
 rm -rf "$out"
 mkdir -p "$out/bin"
 cp "$gnomon" "$out/bin/gnomon"
-cp "$build/tests/firstflip.so" "$build/tests/keyboard" "$build/tests/television" "$(dirname "$build")/selftest/lattice.glb" "$out/bin/" || exit 1
+cp "$build/tests/firstflip.so" "$build/tests/keyboard" "$build/tests/touchscreen" "$build/tests/television" "$(dirname "$build")/selftest/lattice.glb" "$out/bin/" || exit 1
 cp "$here/guest.sh" "$out/guest.sh"
 if [ -n "$systemd" ]; then
     mkdir "$out/debs"

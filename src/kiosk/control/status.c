@@ -147,10 +147,11 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
                   (json_int_t)frames->opened));
     json_object_set_new(
         reply, "input",
-        json_pack("{s:I, s:o, s:o, s:i, s:i}", "seen", (json_int_t)latency.count, "median_ms",
+        json_pack("{s:I, s:o, s:o, s:i, s:i, s:i}", "seen", (json_int_t)latency.count, "median_ms",
                   gn_json_make_number((double)latency.median.ns * 1e-6), "worst_ms",
                   gn_json_make_number((double)latency.worst.ns * 1e-6), "median_frames",
-                  latency.median.frames, "worst_frames", latency.worst.frames));
+                  latency.median.frames, "worst_frames", latency.worst.frames, "pointers",
+                  s->buttons.input ? gn_input_pointers(s->buttons.input) : 0));
     json_object_set_new(reply, "fps", json_integer(gn_frame_times_fps(&s->counts.times, now_ns)));
     json_object_set_new(reply, "config",
                         json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
