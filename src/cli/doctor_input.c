@@ -6,6 +6,13 @@
 
 enum { COLUMNS = 96 };
 
+static const char *const kinds[] = {
+    [GN_TOUCH_NONE] = "",
+    [GN_TOUCH_SCREEN] = "touch screen",
+    [GN_TOUCH_TABLET] = "tablet",
+    [GN_TOUCH_MOUSE] = "mouse",
+};
+
 /* ---- for people ---------------------------------------------------------------------------- */
 
 void gn_doctor_print_input(const struct gn_doctor_report *report, FILE *to) {
@@ -44,6 +51,9 @@ void gn_doctor_print_input(const struct gn_doctor_report *report, FILE *to) {
     fprintf(to, "\nKeys\n  %d input device%s", input->devices, input->devices == 1 ? "" : "s");
     if (input->devices_denied) fprintf(to, ", %d of them not to be read", input->devices_denied);
     fprintf(to, "\n");
+    for (int i = 0; i < input->pointer_count; i++)
+        fprintf(to, "  %s: %s, %s\n", kinds[input->pointers[i].kind], input->pointers[i].name,
+                input->pointers[i].path);
 }
 
 /* ---- for programs -------------------------------------------------------------------------- */
@@ -70,6 +80,12 @@ void gn_doctor_describe_chip(const struct gn_doctor_report *report, const char *
 
 json_t *gn_doctor_input_json(const struct gn_doctor_report *report) {
     const struct gn_input_list *input = &report->input;
-    return json_pack("{so si si}", "gpio_library", gn_json_make_text(input->library), "devices",
-                     input->devices, "devices_denied", input->devices_denied);
+    json_t *pointers = json_array();
+    for (int i = 0; i < input->pointer_count; i++)
+        json_array_append_new(pointers,
+                              json_pack("{ss so so}", "kind", kinds[input->pointers[i].kind],
+                                        "name", gn_json_make_text(input->pointers[i].name), "path",
+                                        gn_json_make_text(input->pointers[i].path)));
+    return json_pack("{so si si so}", "gpio_library", gn_json_make_text(input->library), "devices",
+                     input->devices, "devices_denied", input->devices_denied, "pointers", pointers);
 }

@@ -59,7 +59,7 @@ void gn_doctor_diagnose_input(struct gn_doctor_report *report) {
     snprintf(cure, sizeof cure, "sudo usermod -aG input %s, then log in again",
              report->machine.user);
     gn_problem_add(&report->problems, cure,
-                   "%d of %d input devices may not be read: keys there are ignored",
+                   "%d of %d input devices may not be read: keys and touches there are ignored",
                    input->devices_denied, input->devices);
 }
 

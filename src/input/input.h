@@ -81,13 +81,19 @@ struct gn_input_chip {
     int line_count;
     const struct gn_input_line *lines;
 };
-enum { GN_INPUT_CHIPS_MAX = 32 };
+struct gn_input_pointer { /* a touch screen or a mouse */
+    char path[64], name[80];
+    enum gn_touch_kind kind;
+};
+enum { GN_INPUT_CHIPS_MAX = 32, GN_INPUT_POINTERS_MAX = 16 };
 struct gn_input_list {
     const char *library; /* "libgpiod 1"; NULL: built without, chips are not listed */
     struct gn_input_chip chips[GN_INPUT_CHIPS_MAX];
     int chip_count;
     int devices, devices_denied; /* number of input devices; those without read permission */
-    struct gn_arena arena;       /* owns the lines */
+    struct gn_input_pointer pointers[GN_INPUT_POINTERS_MAX]; /* of those with it */
+    int pointer_count;
+    struct gn_arena arena; /* owns the lines */
 };
 /* Lists GPIO lines and input devices. Changes nothing. */
 void gn_input_list_lines(struct gn_input_list *out);

@@ -5,6 +5,22 @@
 
 #include "input/private.h"
 
+static void add_pointer(const struct gn_input_world *world, const char *path,
+                        struct gn_input_list *out) {
+    static const uint8_t no_keys[GN_KEY_BYTES];
+    const struct gn_evdev_ops *ops = world->evdev ? world->evdev : &gn_evdev;
+    const struct gn_evdev_wish wish = {.bound = no_keys, .pointers = GN_POINTERS_ALL};
+    struct gn_evdev_found found = {.fd = -1};
+    if (out->pointer_count == GN_INPUT_POINTERS_MAX ||
+        ops->open(world->evdev_context, path, &wish, &found) != 0)
+        return;
+    close(found.fd);
+    struct gn_input_pointer *p = &out->pointers[out->pointer_count++];
+    snprintf(p->path, sizeof p->path, "%s", path);
+    snprintf(p->name, sizeof p->name, "%s", found.name);
+    p->kind = found.touch.kind;
+}
+
 void gn_input_list_in(const struct gn_input_world *world, struct gn_input_list *out) {
     const struct gn_gpio_ops *ops = world->gpio ? world->gpio : &gn_gpio_library;
     const char *folder = world->folder ? world->folder : "/dev";
@@ -15,7 +31,9 @@ void gn_input_list_in(const struct gn_input_world *world, struct gn_input_list *
     if (glob(pattern, 0, NULL, &found) == 0) {
         for (size_t i = 0; i < found.gl_pathc; i++) {
             out->devices++;
-            out->devices_denied += access(found.gl_pathv[i], R_OK) != 0;
+            const bool denied = access(found.gl_pathv[i], R_OK) != 0;
+            out->devices_denied += denied;
+            if (!denied) add_pointer(world, found.gl_pathv[i], out);
         }
         globfree(&found);
     }

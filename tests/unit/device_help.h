@@ -37,7 +37,10 @@ static inline int open_keyboard(void *context, const char *path, const struct gn
     (void)context;
     int ends[2];
     const int i = number_of(path);
+    bool any = wish->pointers && keyboards[i].glass.kind;
+    for (int k = 0; k < GN_KEY_BYTES; k++) any |= wish->bound[k];
     if (keyboards[i].error) return keyboards[i].error;
+    if (!any) return ENOTSUP;
     if (pipe2(ends, O_NONBLOCK | O_CLOEXEC)) return errno;
     keyboards[i].write_fd = ends[1];
     out->fd = ends[0];

@@ -20,6 +20,11 @@ static void fill(struct gn_doctor_report *report) {
     strcpy(report->machine.user, "kiosk");
     report->input = (struct gn_input_list){
         .library = "libgpiod 9", .chip_count = 3, .devices = 5, .devices_denied = 2};
+    report->input.pointer_count = 2;
+    report->input.pointers[0] =
+        (struct gn_input_pointer){"/dev/input/event3", "ft5x06", GN_TOUCH_SCREEN};
+    report->input.pointers[1] =
+        (struct gn_input_pointer){"/dev/input/event5", "A Mouse", GN_TOUCH_MOUSE};
     report->input.chips[0] = (struct gn_input_chip){.path = "/dev/gpiochip0",
                                                     .name = "gpiochip0",
                                                     .label = "pinctrl-rp1",
@@ -47,7 +52,9 @@ static void test_people_read_names_and_users(void **state) {
               "     ID_SDA GPIO8 (in use by spi0 CS0) line 2 (in use)\n"
               "  gpiochip1: 1 line, label gpio3; without names: write label:gpio3/NUMBER\n"
               "  read by libgpiod 9\n"
-              "\nKeys\n  5 input devices, 2 of them not to be read\n");
+              "\nKeys\n  5 input devices, 2 of them not to be read\n"
+              "  touch screen: ft5x06, /dev/input/event3\n"
+              "  mouse: A Mouse, /dev/input/event5\n");
     free(text);
 }
 
@@ -60,14 +67,17 @@ static void test_programs_read_the_same(void **state) {
     gn_doctor_describe_chip(&report, "/dev/gpiochip2", none);
     json_t *all = json_pack("[ooo]", chip, none, gn_doctor_input_json(&report));
     char *text = json_dumps(all, JSON_COMPACT);
-    assert_string_equal(text,
-                        "[{\"label\":\"pinctrl-rp1\",\"lines\":["
-                        "{\"name\":\"ID_SDA\",\"used\":false,\"consumer\":null},"
-                        "{\"name\":\"GPIO8\",\"used\":true,\"consumer\":\"spi0 CS0\"},"
-                        "{\"name\":null,\"used\":true,\"consumer\":null},"
-                        "{\"name\":null,\"used\":false,\"consumer\":null}]},"
-                        "{\"label\":null,\"lines\":null},"
-                        "{\"gpio_library\":\"libgpiod 9\",\"devices\":5,\"devices_denied\":2}]");
+    assert_string_equal(
+        text, "[{\"label\":\"pinctrl-rp1\",\"lines\":["
+              "{\"name\":\"ID_SDA\",\"used\":false,\"consumer\":null},"
+              "{\"name\":\"GPIO8\",\"used\":true,\"consumer\":\"spi0 CS0\"},"
+              "{\"name\":null,\"used\":true,\"consumer\":null},"
+              "{\"name\":null,\"used\":false,\"consumer\":null}]},"
+              "{\"label\":null,\"lines\":null},"
+              "{\"gpio_library\":\"libgpiod 9\",\"devices\":5,\"devices_denied\":2,"
+              "\"pointers\":["
+              "{\"kind\":\"touch screen\",\"name\":\"ft5x06\",\"path\":\"/dev/input/event3\"},"
+              "{\"kind\":\"mouse\",\"name\":\"A Mouse\",\"path\":\"/dev/input/event5\"}]}]");
     free(text);
     json_decref(all);
 }
@@ -81,7 +91,7 @@ static void test_each_problem_has_its_cure(void **state) {
     assert_string_equal(report.problems.items[0].what,
                         "/dev/gpiochip2 cannot be opened: Input/output error");
     assert_string_equal(report.problems.items[1].what,
-                        "2 of 5 input devices may not be read: keys there are ignored");
+                        "2 of 5 input devices may not be read: keys and touches there are ignored");
     assert_string_equal(report.problems.items[1].cure,
                         "sudo usermod -aG input kiosk, then log in again");
     fill(&report);

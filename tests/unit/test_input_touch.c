@@ -100,12 +100,28 @@ static void test_touches_that_are_not_wanted_are_not_read(void **state) {
     assert_turned(0, false, 20 * MS);
 }
 
+static void test_doctor_lists_them(void **state) {
+    (void)state;
+    static struct gn_input_list list;
+    const struct gn_input_world world = {
+        .gpio = &fake_gpio_none, .evdev = &evdev, .folder = folder};
+    plug(1); /* a keyboard */
+    plug_glass(3);
+    gn_input_list_in(&world, &list);
+    assert_int_equal(list.devices, 2);
+    assert_int_equal(list.pointer_count, 1);
+    assert_non_null(strstr(list.pointers[0].path, "/input/event3"));
+    assert_int_equal(list.pointers[0].kind, GN_TOUCH_SCREEN);
+    gn_input_list_finish(&list);
+}
+
 int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_a_tap_is_a_key_and_a_drag_is_a_move),
         TEST(test_glass_that_is_pulled_out_holds_nothing),
         TEST(test_a_finger_from_before_and_lost_events_do_not_tap),
+        TEST(test_doctor_lists_them),
         TEST(test_touches_that_are_not_wanted_are_not_read),
     };
     return RUN(tests);
