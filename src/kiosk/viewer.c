@@ -27,7 +27,8 @@ static size_t add_button(const struct gn_button_config *button, char *out, size_
         const int length = (int)strcspn(at, " ");
         char name[40];
         snprintf(name, sizeof name, "%.*s", length, at);
-        if (!gn_viewer_key_find(gn_key_find(name), &place))
+        const unsigned key = gn_key_find(name); /* a window has no taps */
+        if (key != GN_KEY_TAP && !gn_viewer_key_find(key, &place))
             used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
         at += length + (int)strspn(at + length, " ");
     }
