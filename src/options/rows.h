@@ -133,13 +133,13 @@ GN_OPTION(.name = "camera-target", .key = "target", .section = "camera", .kind =
 GN_OPTION(.name = "camera-fov", .key = "fov", .section = "camera", .kind = GN_KIND_EV, .min = 1, .max = 170, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "vertical field of view of a perspective camera; of one with an aspectRatio in a picture of that shape", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.fov_deg))
 GN_OPTION(.name = "camera-phi-min", .key = "phi_min", .section = "camera", .kind = GN_KIND_NUMBER, .max = 180, .value = "DEG", .unit = "degrees", .fallback = "0",
-          .help = "the mouse takes the camera no higher", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.phi_min_deg))
+          .help = "mouse and fingers take the camera no higher", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.phi_min_deg))
 GN_OPTION(.name = "camera-phi-max", .key = "phi_max", .section = "camera", .kind = GN_KIND_NUMBER, .max = 180, .value = "DEG", .unit = "degrees", .fallback = "180",
-          .help = "the mouse takes the camera no lower; 90: not below the horizon", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.phi_max_deg))
+          .help = "mouse and fingers take the camera no lower; 90: not below the horizon", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.phi_max_deg))
 GN_OPTION(.name = "camera-distance-min", .key = "distance_min", .section = "camera", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
-          .help = "the mouse takes the camera no nearer", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.distance_min_m))
+          .help = "mouse and fingers take the camera no nearer", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.distance_min_m))
 GN_OPTION(.name = "camera-distance-max", .key = "distance_max", .section = "camera", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
-          .help = "the mouse takes the camera no farther", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.distance_max_m))
+          .help = "mouse and fingers take the camera no farther", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.distance_max_m))
 /* where it goes */
 GN_OPTION(.name = "backend", .section = "display", .kind = GN_KIND_WORD, .choices = backends, .value = "NAME", .fallback = "auto",
           .help = "display backend", .commands = DRAW | BIT(DOCTOR) | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.backend))

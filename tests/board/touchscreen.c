@@ -1,8 +1,10 @@
-/* A touch screen that a script works on, of 200 x 150 mm: lines "tap X Y", "drag X Y TO_X TO_Y",
+/* A touch screen that a script works on, of 200 x 143 mm: lines "tap X Y", "drag X Y TO_X TO_Y",
  * "hold X Y TO_X TO_Y" (the finger stays down) or "lift" on stdin, in thousandths of the panel; at
- * their end it is pulled out. */
+ * their end it is pulled out. With the argument "mouse" a mouse, whose drags are as many counts
+ * with its left button down, and taps clicks. */
 #include <fcntl.h>
 #include <linux/uinput.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -22,13 +24,23 @@ static int report(int fd) {
     return error;
 }
 
+static bool is_mouse;
+
 static int put_finger(int fd, int x, int y) {
+    static int last_x, last_y;
+    const int by_x = x - last_x, by_y = y - last_y;
+    last_x = x;
+    last_y = y;
+    if (is_mouse) return send_event(fd, EV_REL, REL_X, by_x) || send_event(fd, EV_REL, REL_Y, by_y);
     return send_event(fd, EV_ABS, ABS_MT_POSITION_X, x) ||
            send_event(fd, EV_ABS, ABS_MT_POSITION_Y, y);
 }
 
 static int touch(int fd, int x, int y) {
     static int id;
+    if (is_mouse) /* it goes there, and then the button goes down */
+        return put_finger(fd, x, y) || report(fd) || send_event(fd, EV_KEY, BTN_LEFT, 1) ||
+               report(fd);
     return send_event(fd, EV_ABS, ABS_MT_SLOT, 0) ||
            send_event(fd, EV_ABS, ABS_MT_TRACKING_ID, ++id) || put_finger(fd, x, y) ||
            send_event(fd, EV_KEY, BTN_TOUCH, 1) || report(fd);
@@ -43,6 +55,7 @@ static int slide(int fd, int x, int y, int to_x, int to_y) {
 }
 
 static int lift(int fd) {
+    if (is_mouse) return send_event(fd, EV_KEY, BTN_LEFT, 0) || report(fd);
     return send_event(fd, EV_ABS, ABS_MT_TRACKING_ID, -1) || send_event(fd, EV_KEY, BTN_TOUCH, 0) ||
            report(fd);
 }
@@ -53,17 +66,30 @@ static int set_axis(int fd, int code, int max, int per_mm) {
     return ioctl(fd, UI_ABS_SETUP, &axis);
 }
 
-static int plug_in(int fd) {
-    struct uinput_setup setup = {.id = {.bustype = BUS_USB, .vendor = 1, .product = 2}};
-    snprintf(setup.name, sizeof setup.name, "a touch screen of the test");
-    return fd < 0 || ioctl(fd, UI_SET_EVBIT, EV_KEY) || ioctl(fd, UI_SET_KEYBIT, BTN_TOUCH) ||
-           ioctl(fd, UI_SET_EVBIT, EV_ABS) || ioctl(fd, UI_SET_PROPBIT, INPUT_PROP_DIRECT) ||
-           set_axis(fd, ABS_MT_SLOT, 9, 0) || set_axis(fd, ABS_MT_TRACKING_ID, 65535, 0) ||
-           set_axis(fd, ABS_MT_POSITION_X, 1000, 5) || set_axis(fd, ABS_MT_POSITION_Y, 1000, 7) ||
-           ioctl(fd, UI_DEV_SETUP, &setup) || ioctl(fd, UI_DEV_CREATE);
+static int make_mouse(int fd) {
+    return ioctl(fd, UI_SET_KEYBIT, BTN_LEFT) || ioctl(fd, UI_SET_KEYBIT, BTN_RIGHT) ||
+           ioctl(fd, UI_SET_EVBIT, EV_REL) || ioctl(fd, UI_SET_RELBIT, REL_X) ||
+           ioctl(fd, UI_SET_RELBIT, REL_Y);
 }
 
-int main(void) {
+static int make_glass(int fd) {
+    return ioctl(fd, UI_SET_KEYBIT, BTN_TOUCH) || ioctl(fd, UI_SET_EVBIT, EV_ABS) ||
+           ioctl(fd, UI_SET_PROPBIT, INPUT_PROP_DIRECT) || set_axis(fd, ABS_MT_SLOT, 9, 0) ||
+           set_axis(fd, ABS_MT_TRACKING_ID, 65535, 0) || set_axis(fd, ABS_MT_POSITION_X, 1000, 5) ||
+           set_axis(fd, ABS_MT_POSITION_Y, 1000, 7);
+}
+
+static int plug_in(int fd) {
+    struct uinput_setup setup = {.id = {.bustype = BUS_USB, .vendor = 1, .product = 2}};
+    snprintf(setup.name, sizeof setup.name, "a %s of the test",
+             is_mouse ? "mouse" : "touch screen");
+    return fd < 0 || ioctl(fd, UI_SET_EVBIT, EV_KEY) ||
+           (is_mouse ? make_mouse(fd) : make_glass(fd)) || ioctl(fd, UI_DEV_SETUP, &setup) ||
+           ioctl(fd, UI_DEV_CREATE);
+}
+
+int main(int argc, char *argv[]) {
+    is_mouse = argc > 1 && strcmp(argv[1], "mouse") == 0;
     const int fd = open("/dev/uinput", O_WRONLY | O_CLOEXEC);
     char word[8];
     int x, y, to_x, to_y, error = plug_in(fd);
