@@ -8,40 +8,13 @@
 #include <unistd.h>
 
 #include "input/devices.h"
+#include "input/touch_kind.h"
 
 _Static_assert(KEY_CNT == GN_KEY_COUNT, "keys are numbered as the kernel does");
-
-struct abilities {
-    uint8_t keys[GN_KEY_BYTES], abs[ABS_CNT / 8], rel[REL_CNT / 8 + 1], props[INPUT_PROP_CNT / 8];
-};
-
-static bool has(const uint8_t *bits, unsigned code) { return bits[code / 8] >> code % 8 & 1; }
 
 static void put(uint8_t *bits, unsigned code) { bits[code / 8] |= (uint8_t)(1u << code % 8); }
 
 /* ---- what a device is ---- */
-
-static bool has_slots(const struct abilities *a) {
-    /* a device with all axes is no touch screen */
-    return has(a->abs, ABS_MT_SLOT) && !has(a->abs, ABS_MT_SLOT - 1) &&
-           has(a->abs, ABS_MT_TRACKING_ID) && has(a->abs, ABS_MT_POSITION_X) &&
-           has(a->abs, ABS_MT_POSITION_Y);
-}
-
-/* As udev tells them apart, whose answers a bare board does not have. Touchpads and drawing tablets
- * beside a screen are none of them. */
-static enum gn_touch_kind kind_of(const struct abilities *a) {
-    const bool touch = has(a->keys, BTN_TOUCH), left = has(a->keys, BTN_LEFT),
-               direct = has(a->props, INPUT_PROP_DIRECT),
-               apart = !direct && (has(a->keys, BTN_TOOL_FINGER) || has(a->keys, BTN_TOOL_PEN) ||
-                                   has(a->keys, BTN_STYLUS)),
-               plane = has(a->abs, ABS_X) && has(a->abs, ABS_Y);
-    if (has(a->props, INPUT_PROP_ACCELEROMETER) || apart) return GN_TOUCH_NONE;
-    if (has_slots(a) && (touch || direct)) return GN_TOUCH_SCREEN;
-    if (plane && touch && (direct || !left)) return GN_TOUCH_SCREEN;
-    if (plane && left) return GN_TOUCH_TABLET;
-    return has(a->rel, REL_X) && has(a->rel, REL_Y) && left ? GN_TOUCH_MOUSE : GN_TOUCH_NONE;
-}
 
 static void read_axis(int fd, unsigned code, struct gn_touch_axis *out) {
     struct input_absinfo info = {0};
@@ -49,7 +22,7 @@ static void read_axis(int fd, unsigned code, struct gn_touch_axis *out) {
     *out = (struct gn_touch_axis){info.minimum, info.maximum, info.resolution};
 }
 
-static int read_abilities(int fd, struct abilities *out) {
+static int read_abilities(int fd, struct gn_touch_abilities *out) {
     if (ioctl(fd, EVIOCGBIT(EV_KEY, sizeof out->keys), out->keys) < 0) return errno;
     (void)ioctl(fd, EVIOCGBIT(EV_ABS, sizeof out->abs), out->abs);
     (void)ioctl(fd, EVIOCGBIT(EV_REL, sizeof out->rel), out->rel);
@@ -57,14 +30,14 @@ static int read_abilities(int fd, struct abilities *out) {
     return 0;
 }
 
-static void find_touch(int fd, const struct abilities *a, enum gn_pointers wanted,
+static void find_touch(int fd, const struct gn_touch_abilities *a, enum gn_pointers wanted,
                        struct gn_touch_opts *out) {
-    const enum gn_touch_kind kind = kind_of(a);
+    const enum gn_touch_kind kind = gn_touch_kind(a);
     *out = (struct gn_touch_opts){0};
     if (wanted == GN_POINTERS_NONE || (wanted == GN_POINTERS_TOUCH && kind != GN_TOUCH_SCREEN))
         return;
     out->kind = kind;
-    out->has_slots = kind == GN_TOUCH_SCREEN && has_slots(a);
+    out->has_slots = kind == GN_TOUCH_SCREEN && gn_touch_has_slots(a);
     if (kind != GN_TOUCH_SCREEN && kind != GN_TOUCH_TABLET) return;
     read_axis(fd, out->has_slots ? ABS_MT_POSITION_X : ABS_X, &out->x);
     read_axis(fd, out->has_slots ? ABS_MT_POSITION_Y : ABS_Y, &out->y);
@@ -79,7 +52,7 @@ static void set_mask(int fd, uint32_t type, const uint8_t *bits, uint32_t size) 
 
 /* Only what is wanted wakes us: not typing, a pressure, or a pointer that nobody asked for. */
 static void set_masks(int fd, const uint8_t *bound, const struct gn_touch_opts *touch) {
-    struct abilities want = {0};
+    struct gn_touch_abilities want = {0};
     uint8_t types[EV_CNT / 8] = {0};
     const enum gn_touch_kind kind = touch->kind;
     memcpy(want.keys, bound, sizeof want.keys);
@@ -119,7 +92,7 @@ static int open_device(void *context, const char *path, const struct gn_evdev_wi
     if (fd < 0) return errno;
     int clock = CLOCK_MONOTONIC;
     bool any = false;
-    struct abilities a = {0};
+    struct gn_touch_abilities a = {0};
     int error = read_abilities(fd, &a);
     memcpy(out->has, a.keys, sizeof out->has);
     for (int i = 0; i < GN_KEY_BYTES; i++) any |= a.keys[i] & wish->bound[i];
@@ -178,9 +151,9 @@ static int read_touch(void *context, int fd, const struct gn_touch_opts *opts,
     const bool screen = opts->kind == GN_TOUCH_SCREEN;
     out->x[0] = read_value(fd, ABS_X);
     out->y[0] = read_value(fd, ABS_Y);
-    out->buttons[0] = has(keys, screen ? BTN_TOUCH : BTN_LEFT);
-    out->buttons[1] = !screen && has(keys, BTN_RIGHT);
-    out->buttons[2] = !screen && has(keys, BTN_MIDDLE);
+    out->buttons[0] = gn_key_is_down(keys, screen ? BTN_TOUCH : BTN_LEFT);
+    out->buttons[1] = !screen && gn_key_is_down(keys, BTN_RIGHT);
+    out->buttons[2] = !screen && gn_key_is_down(keys, BTN_MIDDLE);
     return error;
 }
 
