@@ -132,6 +132,7 @@ gather() {
     mkdir -p "$work/initrd.d/bin" "$work/initrd.d/modules"
     order base virtio_pci 9pnet_virtio 9p overlay virtio_console virtio_rng &&
         order disk virtio_blk crc32c_generic ext4 &&
+        order stick xhci_pci usb_storage sd_mod vfat nls_cp437 nls_ascii nls_iso8859_1 nls_utf8 &&
         order gpu virtio_gpu && order vkms vkms && order gpio gpio-sim && order keys evdev uinput &&
         order cec vivid || return
     cp "$busybox" "$work/initrd.d/bin/busybox" && mv "$work/kernel/boot/vmlinuz-$release" "$work/vmlinuz"

@@ -126,7 +126,10 @@ machine+=(
 )
 # shellcheck disable=SC2054
 if [ -n "$systemd" ]; then
-    machine+=(-drive "file=$root,format=raw,if=virtio,snapshot=on")
+    truncate -s 64M "$out/stick1.img" "$out/stick2.img"
+    machine+=(-drive "file=$root,format=raw,if=virtio,snapshot=on" -device qemu-xhci,id=usb
+        -blockdev "driver=file,node-name=stick1,filename=$out/stick1.img"
+        -blockdev "driver=file,node-name=stick2,filename=$out/stick2.img")
 else
     machine+=(-fsdev "local,id=root,path=$root,security_model=none,readonly=on,multidevs=remap"
         -device virtio-9p-pci,fsdev=root,mount_tag=root)

@@ -27,7 +27,7 @@ if [ ! -e "$root/.made" ]; then
     echo "board: making the root of $suite with systemd, once" >&2
     rm -rf "$root" && mkdir -p "$store"
     mmdebstrap --mode=root --variant=minbase --skip=cleanup/apt --quiet \
-        --include=systemd-sysv,udev,dbus,kmod,mawk,busybox-static,procps,kbd,ca-certificates,sudo \
+        --include=systemd-sysv,udev,dbus,kmod,mawk,busybox-static,procps,kbd,ca-certificates,sudo,dosfstools \
         "$suite" "$root" "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $suite main" \
         > "$store/service.log" 2>&1 || { tail -n 5 "$store/service.log" >&2 && skip "mmdebstrap failed for $suite"; }
     mkdir "$root/root/debs"
