@@ -106,7 +106,7 @@ bool gn_health_explain(const struct gn_health *h, enum gn_health_kind kind, int6
 /* ---- several readings ------------------------------------------------------------------------ */
 
 void gn_health_take(struct gn_health_log *log, const struct gn_health *reading) {
-    const int64_t failed_before = log->begun ? log->last.cma_failed : -1;
+    const int64_t failed_before = log->begun ? log->cma_failed : -1;
     for (int i = 0; i < GN_HEALTH_COUNT; i++) {
         struct gn_ailment *a = &log->of[i];
         const bool is_ill = gn_health_explain(reading, (enum gn_health_kind)i, failed_before,
@@ -115,6 +115,7 @@ void gn_health_take(struct gn_health_log *log, const struct gn_health *reading) 
         a->calm = is_ill ? 0 : a->calm + a->lasts;
         a->lasts = is_ill || (a->lasts && a->calm < GN_HEALTH_CALM);
     }
+    log->cma_failed = reading->cma_failed < 0 ? failed_before : reading->cma_failed;
     log->last = *reading;
     log->begun = true;
 }

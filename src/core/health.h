@@ -62,6 +62,7 @@ enum { GN_HEALTH_CALM = 6 };
 struct gn_health_log { /* zeroed: none yet */
     struct gn_health last;
     bool begun;
+    int64_t cma_failed; /* of the last reading that had it; -1: none */
     struct gn_ailment {
         bool lasts;
         int calm;       /* readings without it, while it lasts */

@@ -8,14 +8,16 @@
 static void run(const char *command) { assert_int_equal(system(command), 0); }
 
 void health_write(const char *root, const char *path, const char *text) {
-    char full[400], command[500];
+    char full[400], part[420], command[500];
     snprintf(full, sizeof full, "%s/%s", root, path);
     snprintf(command, sizeof command, "mkdir -p \"$(dirname '%s')\"", full);
     run(command);
-    FILE *file = fopen(full, "w");
+    snprintf(part, sizeof part, "%s.part", full); /* a thread may read meanwhile */
+    FILE *file = fopen(part, "w");
     assert_non_null(file);
     fputs(text, file);
     assert_int_equal(fclose(file), 0);
+    assert_int_equal(rename(part, full), 0);
 }
 
 void health_remove(const char *root, const char *path) {

@@ -295,7 +295,9 @@ static void cma_failures_before_the_first_reading_are_not_ours(void **state) {
     gn_health_take(&log, &h);
     gn_health_take(&log, &h);
     assert_int_equal(log.of[GN_HEALTH_CMA].times, 0);
-    h.cma_failed++;
+    h.cma_failed = -1; /* could not be read once */
+    gn_health_take(&log, &h);
+    h.cma_failed = 41;
     gn_health_take(&log, &h);
     assert_true(log.of[GN_HEALTH_CMA].lasts);
     for (int i = 0; i < GN_HEALTH_CALM; i++) gn_health_take(&log, &h);
