@@ -49,6 +49,7 @@ rm -rf "$source" && rm -f "$out"/gnomon*
 cp "$O/gnomon-$VERSION.tar.gz" "$out/gnomon_$VERSION.orig.tar.gz"
 tar -x -z -C "$out" -f "$out/gnomon_$VERSION.orig.tar.gz"
 cp -r "$here/debian" "$source/debian"
+[ "$suite" != bookworm ] || rm "$source/debian/gnomon.lintian-overrides" # its lintian does not know the tag
 changelog > "$source/debian/changelog"
 found=$(sed -n '1s/.*(\(.*\)).*/\1/p' "$source/debian/changelog")
 [ "$found" = "$version" ] || { echo "deb.sh: CHANGELOG.md begins with $found, and the Makefile's version is $version" >&2 && exit 1; }

@@ -107,10 +107,11 @@ static bool take_fresh(const struct gn_options *o, struct gn_take *t, struct rep
         return fail_findings(found, err);
     }
     if (!gn_take_keep(t, err)) return false;
-    add_line(r, "This folder was taken over: %d files, %.1f MB.", t->count,
+    const char *plural = t->count == 1 ? "" : "s";
+    add_line(r, "This folder was taken over: %d file%s, %.1f MB.", t->count, plural,
              (double)t->bytes / (1 << 20));
-    printf("taken: version %.*s, %d files, %.1f MB\n", (int)strcspn(t->shown, "-"), t->shown,
-           t->count, (double)t->bytes / (1 << 20));
+    printf("taken: version %.*s, %d file%s, %.1f MB\n", (int)strcspn(t->shown, "-"), t->shown,
+           t->count, plural, (double)t->bytes / (1 << 20));
     return true;
 }
 

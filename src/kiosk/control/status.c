@@ -112,15 +112,30 @@ json_t *gn_show_status_short(const struct gn_show *s) {
                      gn_json_make_text(plays ? s->stage.scene->animation.clips[clip].name : NULL));
 }
 
+static json_t *screen_json(const struct gn_display *display) {
+    static const char *const ranges[] = {"auto", "full", "limited"};
+    const struct gn_screen *screen = &display->screen;
+    return json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i, s:s}", "backend",
+                     display->ops ? display->ops->name : "", "what",
+                     gn_json_make_text(screen->what), "status", gn_json_make_text(screen->status),
+                     "lit", screen->lit, "width", (int)screen->width_px, "height",
+                     (int)screen->height_px, "rotate", (int)screen->rotate_deg, "range",
+                     ranges[screen->range]);
+}
+
+static json_t *frames_json(uint64_t drawn, const struct gn_screen_counts *frames) {
+    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn", (json_int_t)drawn,
+                     "shown", (json_int_t)frames->shown, "again", (json_int_t)frames->again,
+                     "missed", (json_int_t)frames->missed, "retried", (json_int_t)frames->retried,
+                     "stalled", (json_int_t)frames->stalled, "relit", (json_int_t)frames->relit,
+                     "opened", (json_int_t)frames->opened);
+}
+
 json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *status,
                             struct gn_control_counts c) {
     const struct gn_options *o = s->config.options;
     const struct gn_latency_report latency = gn_latency_read(&s->buttons.latency);
-    const struct gn_display *display = &s->stage.display;
-    const struct gn_screen *screen = &display->screen;
-    const struct gn_screen_counts *frames = &screen->counts;
     const int64_t now_ns = gn_loop_now_ns(s->loop);
-    static const char *const ranges[] = {"auto", "full", "limited"};
     json_t *modes = json_array();
     for (int i = 0; i < s->modes.count; i++)
         json_array_append_new(modes, gn_json_make_text(s->modes.names[i]));
@@ -131,20 +146,9 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_set_new(reply, "waits", json_boolean(s->config.waits || gn_kiosk_waits(&s->kiosk)));
     json_object_set_new(reply, "modes", modes);
     if (s->stage.settings->light_count > 0) json_object_set_new(reply, "lights", lights_json(s));
-    json_object_set_new(reply, "screen",
-                        json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i, s:s}", "backend",
-                                  display->ops ? display->ops->name : "", "what",
-                                  gn_json_make_text(screen->what), "status",
-                                  gn_json_make_text(screen->status), "lit", screen->lit, "width",
-                                  (int)screen->width_px, "height", (int)screen->height_px, "rotate",
-                                  (int)screen->rotate_deg, "range", ranges[screen->range]));
-    json_object_set_new(
-        reply, "frames",
-        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn", (json_int_t)s->counts.frames,
-                  "shown", (json_int_t)frames->shown, "again", (json_int_t)frames->again, "missed",
-                  (json_int_t)frames->missed, "retried", (json_int_t)frames->retried, "stalled",
-                  (json_int_t)frames->stalled, "relit", (json_int_t)frames->relit, "opened",
-                  (json_int_t)frames->opened));
+    json_object_set_new(reply, "screen", screen_json(&s->stage.display));
+    json_object_set_new(reply, "frames",
+                        frames_json(s->counts.frames, &s->stage.display.screen.counts));
     json_object_set_new(
         reply, "input",
         json_pack("{s:I, s:o, s:o, s:i, s:i, s:i}", "seen", (json_int_t)latency.count, "median_ms",
