@@ -27,6 +27,16 @@ static void make_projection(const struct gn_camera *camera, const struct gn_orbi
     glm_perspective(camera->yfov_rad, aspect, near_m, far_m, clip_from_view);
 }
 
+static void shift_scene(const struct gn_frame *frame, const int shift_px[2], mat4 clip_from_view) {
+    if (shift_px[0] == 0 && shift_px[1] == 0) return;
+    const float x = 2.0f * (float)shift_px[0] / (float)frame->picture.width_px,
+                y = 2.0f * (float)shift_px[1] / (float)frame->picture.height_px;
+    for (int k = 0; k < 4; k++) {
+        clip_from_view[k][0] += x * clip_from_view[k][3];
+        clip_from_view[k][1] += y * clip_from_view[k][3];
+    }
+}
+
 struct look {
     mat4 view_from_world, clip_from_world;
     vec3 eye_ws;
@@ -76,6 +86,7 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
     reach_m[1] = isfinite(far_m) && far_m > least_m ? far_m : least_m;
     const bool placed = !opts->view.light_plus_1 && framing.distance_m > 0.0f;
     make_projection(&camera, orbit, placed, aspect, reach_m, clip_from_view);
+    shift_scene(frame, opts->view.shift_px, clip_from_view);
     /* Rotates the picture in clip space: free for a rotated screen. */
     const float c = frame->picture.turn[0], s = frame->picture.turn[1];
     for (int k = 0; k < 4; k++) {

@@ -25,8 +25,8 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         view.old > 0.0f || drawn->old > 0.0f || view.caption != drawn->caption ||
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
-    return moves || differs || gn_show_bar_moves(s) || gn_truth_wants_frame(s) ||
-           gn_show_captions_due_ns(s) <= screen->seen_ns;
+    return moves || differs || gn_show_shifts(s) || gn_show_bar_moves(s) ||
+           gn_truth_wants_frame(s) || gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* Fills a requested screenshot from this frame. */
@@ -62,6 +62,7 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     gn_show_step_turntable(s, seen_ns, scene_ns);
+    gn_show_shift(s);
     bool left_is_behind = false;
     if (s->split.on && !gn_split_draw_left(s, scene_ns, &left_is_behind, err)) return false;
     if (!(s->truth.on ? gn_truth_draw(s, scene_ns, err)

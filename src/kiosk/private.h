@@ -225,6 +225,7 @@ struct gn_show {
     struct gn_kiosk_rules rules;
     struct gn_kiosk kiosk;
     struct gn_kiosk_view drawn; /* by the last frame */
+    int64_t shifted_minute;     /* of that frame */
     struct gn_show_text text;
     struct gn_show_ahead ahead;
     struct gn_show_fade fade;
@@ -381,6 +382,11 @@ void gn_show_turn_home(struct gn_show *show);    /* the view is the camera's aga
 bool gn_show_turntable_moves(const struct gn_show *show);
 int64_t gn_show_turntable_due_ns(const struct gn_show *show); /* when it goes on; INT64_MAX */
 void gn_show_step_turntable(struct gn_show *show, int64_t seen_ns, int64_t scene_ns);
+
+/* shift.c: the picture wanders against burn-in. */
+bool gn_show_shifts(const struct gn_show *show); /* it stands elsewhere than in the last frame */
+int64_t gn_show_shift_due_ns(const struct gn_show *show); /* INT64_MAX: never */
+void gn_show_shift(struct gn_show *show);                 /* for the next frame */
 
 /* ---- begin.c: from arguments to a first mode ------------------------------------------------- */
 

@@ -35,6 +35,8 @@ static int64_t due_ns(const struct gn_show *s) {
     if (truth_ns < at_ns) at_ns = truth_ns;
     const int64_t turntable_ns = gn_show_turntable_due_ns(s);
     if (turntable_ns < at_ns) at_ns = turntable_ns;
+    const int64_t shift_ns = gn_show_shift_due_ns(s);
+    if (shift_ns < at_ns) at_ns = shift_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;

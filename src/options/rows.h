@@ -165,6 +165,8 @@ GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
           .help = "use legacy KMS instead of atomic", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
 GN_OPTION(.name = "touch-rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees", .fallback = "0",
           .help = "how a touch screen's glass is mounted on its panel, if it is turned clockwise against it; with rotate touches are turned anyway", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.touch_rotate_deg))
+GN_OPTION(.name = "pixel-shift", .section = "display", .kind = GN_KIND_INT, .min = 0, .max = 64, .value = "PX", .unit = "pixels", .fallback = "0",
+          .help = "against burn-in the picture wanders by a pixel a minute, up to so many to each side; 0: it stays", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.pixel_shift_px))
 /* what a kiosk does by itself */
 GN_OPTION(.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = idles, .value = "WHAT", .fallback = "none",
           .help = "after the idle timeout go to the first mode, or to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))

@@ -147,6 +147,7 @@ struct gn_display_settings {
     const char *modeline;
     int rotate_deg, max_fps; /* 0: as fast as the display */
     int touch_rotate_deg;
+    int pixel_shift_px; /* 0: none */
     bool legacy;
     int range; /* enum gn_screen_range */
 };

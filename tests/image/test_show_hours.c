@@ -3,9 +3,11 @@
 #include "unit/check.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "core/clock.h"
 #include "kiosk/private.h"
+#include "kiosk/shift.h"
 #include "unit/gl_help.h"
 #include "unit/show_help.h"
 
@@ -87,11 +89,53 @@ static void a_kiosk_of_two_modes_keeps_its_times_for_hours(void **state) {
     gn_show_close(show);
 }
 
+static void read_picture(struct gn_show *show, uint8_t out[4 * 64 * 64]) {
+    struct gn_err err = {0};
+    if (!gn_gl_read_rgba8(show->stage.gl, out, &err)) fail_msg("%s", err.text);
+}
+
+/* How many of the pixels differ where the second picture is the first one moved to the right and
+ * up; rows are from the top. Each is rasterized anew, so by two codes they may. */
+static int moved_wrongly(const uint8_t *first, const uint8_t *second, const int by_px[2]) {
+    int wrong = 0;
+    for (int y = 8; y < 56; y++)
+        for (int x = 8; x < 56; x++)
+            for (int k = 0, is_wrong = 0; k < 3; k++) {
+                const int was = first[4 * (64 * (y + by_px[1]) + x - by_px[0]) + k];
+                is_wrong |= abs(was - second[4 * (64 * y + x) + k]) > 2;
+                wrong += k == 2 && is_wrong;
+            }
+    return wrong;
+}
+
+static void against_burn_in_the_picture_wanders(void **state) {
+    (void)state;
+    static uint8_t first[4 * 64 * 64], now[4 * 64 * 64];
+    struct gn_show *show = open_show("[display]\npixel_shift = 2\n[kiosk]\ncaptions = no\n"
+                                     "[render]\nshadow = none\n");
+    show->counts.begun_ns = clock_ns;
+    run_until(show, clock_ns + SECONDS(50)); /* all programs are made */
+    read_picture(show, first);
+    const int64_t begun_ns = show->counts.begun_ns;
+    const uint64_t before = show->counts.frames;
+    for (int minute = 1; minute <= 20; minute++) {
+        int by_px[2];
+        run_until(show, begun_ns + SECONDS(60 * minute + 30));
+        assert_int_equal(show->counts.frames - before, minute); /* and nothing else is drawn */
+        gn_shift_at(minute, 2, by_px);
+        read_picture(show, now);
+        const int wrong = moved_wrongly(first, now, by_px);
+        if (wrong > 40) fail_msg("minute %d: %d pixels are not as they were", minute, wrong);
+    }
+    gn_show_close(show);
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) cmocka_set_test_filter(argv[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(idle_ends_the_page_at_its_time_and_then_nothing_is_drawn),
         cmocka_unit_test(a_kiosk_of_two_modes_keeps_its_times_for_hours),
+        cmocka_unit_test(against_burn_in_the_picture_wanders),
     };
     return RUN(tests);
 }
