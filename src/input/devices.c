@@ -124,7 +124,11 @@ static void take_event(struct gn_devices *devices, struct gn_device *d, const st
     const bool repeats = e->type == EV_KEY && (e->value < 0 || e->value > 1); /* autorepeat */
     if (d->dropped || repeats) return;
     if (e->type == EV_KEY) gn_keys_set(devices->keys, &d->keys, e->code, e->value, time_ns);
-    if (d->touch.opts.kind && gn_touch_event(&d->touch, e->type, e->code, e->value, time_ns))
+    if (!d->touch.opts.kind) return;
+    const bool taps = gn_touch_event(&d->touch, e->type, e->code, e->value, time_ns);
+    if (devices->deaf)
+        d->touch.is_tap = false;
+    else if (taps)
         gn_keys_click(devices->keys, GN_KEY_TAP, time_ns);
 }
 

@@ -181,6 +181,8 @@ struct gn_input_moves gn_input_take_moves(struct gn_input *input, int64_t now_ns
     return moves;
 }
 
+void gn_input_deafen(struct gn_input *input, bool deaf) { input->devices.deaf = deaf; }
+
 int gn_input_pointers(const struct gn_input *input) { return gn_devices_pointers(&input->devices); }
 
 bool gn_input_report(struct gn_input *input, char *out, size_t size) {

@@ -32,6 +32,11 @@ void gn_show_wake_by_hand(struct gn_show *s) {
     s->hand.wakes = false;
 }
 
+/* That touch is no tap either. */
+void gn_show_deafen(struct gn_show *s) {
+    if (s->buttons.input) gn_input_deafen(s->buttons.input, gn_kiosk_is_dark(&s->kiosk));
+}
+
 void gn_show_turn_home(struct gn_show *s) {
     struct gn_orbit *orbit = &s->stage.frame_opts.view.orbit;
     s->changed |= !gn_orbit_is_zero(orbit);

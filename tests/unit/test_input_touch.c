@@ -51,6 +51,28 @@ static void test_a_tap_is_a_key_and_a_drag_is_a_move(void **state) {
     assert_false(wakes(10 * GN_NS_PER_S));
 }
 
+static void test_what_begins_while_it_is_deaf_is_no_tap(void **state) {
+    (void)state;
+    plug_glass(0);
+    open_for_touches();
+    gn_input_deafen(input, true);
+    finger(0, 1, 500, start_ns + 10 * MS);
+    dispatch(20 * MS);
+    gn_input_deafen(input, false);
+    finger(0, -1, 0, start_ns + 60 * MS);
+    dispatch(70 * MS);
+    gn_input_deafen(input, true);
+    finger(0, 2, 500, start_ns + 110 * MS); /* both in one step */
+    finger(0, -1, 0, start_ns + 120 * MS);
+    dispatch(130 * MS);
+    assert_nothing();
+    gn_input_deafen(input, false);
+    finger(0, 3, 500, start_ns + 210 * MS);
+    finger(0, -1, 0, start_ns + 220 * MS);
+    dispatch(230 * MS);
+    assert_gesture(0, GN_GESTURE_PRESS, 220 * MS);
+}
+
 static void test_glass_that_is_pulled_out_holds_nothing(void **state) {
     (void)state;
     plug_glass(0);
@@ -119,6 +141,7 @@ int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_a_tap_is_a_key_and_a_drag_is_a_move),
+        TEST(test_what_begins_while_it_is_deaf_is_no_tap),
         TEST(test_glass_that_is_pulled_out_holds_nothing),
         TEST(test_a_finger_from_before_and_lost_events_do_not_tap),
         TEST(test_doctor_lists_them),
