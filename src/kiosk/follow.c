@@ -43,8 +43,6 @@ void gn_show_follow_content(struct gn_show *s, bool missed) {
         gn_show_cure_problem(s, GN_PROBLEM_WATCH);
     } else if (is_open || gn_content_open(&s->content, s->loop)) {
         gn_content_follow(&s->content, paths, count, missed && kiosk->watch);
-        /* it was while the options were read; after a failure it is not tried over and over */
-        s->content.changed |= !missed && gn_show_content_turned(s);
         gn_show_cure_problem(s, GN_PROBLEM_WATCH);
     } else {
         snprintf(text, sizeof text, "%s: changes of files are not noticed: %s",

@@ -177,6 +177,11 @@ void gn_show_renew_content(struct gn_show *s) {
     begin_reload(s, GN_RELOAD_SEEN, gn_show_content_turned(s) ? NULL : s->config.file);
 }
 
+/* Content may have been turned while the options were read. */
+static void look_for_turn(struct gn_show *s) {
+    s->content.changed |= s->content.watch.fd >= 0 && gn_show_content_turned(s);
+}
+
 void gn_show_load_file(struct gn_show *s, const char *path) {
     begin_reload(s, GN_RELOAD_DROP, path);
 }
@@ -233,6 +238,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     if (ok && taken.why[0]) report_missing(s, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);
     gn_show_follow_content(s, false);
+    look_for_turn(s);
     return ok;
 }
 
@@ -277,6 +283,7 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
         gn_loop_now_ns(s->loop) + (strcmp(backend, "window") == 0 ? WINDOW_NS : GN_NS_PER_S);
     snprintf(s->config.asked, sizeof s->config.asked, "%s", o->scene.path ? o->scene.path : "");
     gn_show_follow_content(s, false);
+    look_for_turn(s);
     do {
         gn_loaded_drop(s->reload.loaded);
         s->reload.loaded = NULL;

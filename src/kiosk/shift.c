@@ -27,7 +27,8 @@ static int64_t minute_at(const struct gn_show *s, int64_t now_ns) {
 }
 
 bool gn_show_shifts(const struct gn_show *s) {
-    return most_px(s) > 0 && minute_at(s, gn_loop_now_ns(s->loop)) != s->shifted_minute;
+    return most_px(s) > 0 && !s->truth.on &&
+           minute_at(s, gn_loop_now_ns(s->loop)) != s->shifted_minute;
 }
 
 int64_t gn_show_shift_due_ns(const struct gn_show *s) {
@@ -36,6 +37,7 @@ int64_t gn_show_shift_due_ns(const struct gn_show *s) {
 }
 
 void gn_show_shift(struct gn_show *s) {
+    if (s->truth.on) return; /* whose rays would begin anew */
     s->shifted_minute = minute_at(s, gn_loop_now_ns(s->loop));
     gn_shift_at(s->shifted_minute, most_px(s), s->stage.frame_opts.view.shift_px);
 }
