@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "core/beneath.h"
+#include "core/disk.h"
 #include "core/stop.h"
 #include "core/sweep.h"
 
@@ -138,18 +139,6 @@ void gn_bytes_finish(struct gn_bytes *bytes) {
     *bytes = (struct gn_bytes){0};
 }
 
-static bool write_all(int fd, const void *data, size_t size) {
-    const uint8_t *at = data;
-    while (size > 0) {
-        ssize_t put = write(fd, at, size);
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) return false;
-        at += put;
-        size -= (size_t)put;
-    }
-    return true;
-}
-
 /* -1: the path names no descriptor of this process. */
 static int descriptor_of(const char *path) {
     static const char *const folders[] = {"/dev/fd/", "/proc/self/fd/"};
@@ -172,7 +161,7 @@ static bool write_in_place(const char *path, int flags, const void *data, size_t
     fd = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0)
                  : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC | flags);
     if (fd < 0) return fail_errno(err, path, "write");
-    bool ok = write_all(fd, data, size);
+    bool ok = gn_disk_write_all(gn_disk_write, NULL, fd, data, size);
     if (ok && fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) { /* the file ends after the data */
         off_t end = lseek(fd, 0, SEEK_CUR);
         ok = end >= 0 && ftruncate(fd, end) == 0;
@@ -203,8 +192,8 @@ static bool write_and_rename(const char *path, const struct stat *old, const voi
     gn_stop_release(fd >= 0 ? name : NULL);
     if (fd < 0) return fail_errno(err, path, "write");
     flock(fd, LOCK_EX | LOCK_NB); /* in use: not swept */
-    bool ok = write_all(fd, data, size) && (!old || fchmod(fd, old->st_mode & 0777) == 0) &&
-              fsync(fd) == 0;
+    bool ok = gn_disk_write_all(gn_disk_write, NULL, fd, data, size) &&
+              (!old || fchmod(fd, old->st_mode & 0777) == 0) && fsync(fd) == 0;
     int reason = errno;
     if (close(fd) != 0 && ok) {
         ok = false;

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/disk.h"
+
 static const char head[] = "gnomon-state 1\n", sum_key[] = "crc32 ";
 enum { SUM_LENGTH = sizeof sum_key - 1 + 8 + 1 }; /* "crc32 0123abcd\n" */
 
@@ -150,24 +152,14 @@ enum gn_state_found gn_state_read(const struct gn_state_files *files, const char
     return GN_STATE_BROKEN;
 }
 
-static bool write_all(const struct gn_state_files *files, int fd, const char *data, size_t size) {
-    while (size > 0) {
-        const ssize_t put = files->write(files->user, fd, data, size);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) return false;
-        data += put;
-        size -= (size_t)put;
-    }
-    return true;
-}
-
 bool gn_state_save(const struct gn_state_files *files, const char *path, int older,
                    const struct gn_state *state, struct gn_err *err) {
     char text[GN_STATE_TEXT_MAX];
     const size_t size = gn_state_print(state, text);
     const struct name fresh = name_of(path, ".new"), to = name_of(path, suffixes[older]);
     const int fd = files->create(files->user, fresh.text);
-    bool ok = fd >= 0 && write_all(files, fd, text, size) && files->fsync(files->user, fd) == 0;
+    bool ok = fd >= 0 && gn_disk_write_all(files->write, files->user, fd, text, size) &&
+              files->fsync(files->user, fd) == 0;
     int reason = errno;
     if (fd >= 0 && files->close(files->user, fd) != 0 && ok) ok = false, reason = errno;
     if (!ok) return gn_fail(err, "%s: cannot write: %s", fresh.text, strerror(reason));
@@ -205,21 +197,6 @@ static int disk_create(void *user, const char *path) {
     return open(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
 }
 
-static ssize_t disk_write(void *user, int fd, const void *data, size_t size) {
-    (void)user;
-    return write(fd, data, size);
-}
-
-static int disk_fsync(void *user, int fd) {
-    (void)user;
-    return fsync(fd);
-}
-
-static int disk_close(void *user, int fd) {
-    (void)user;
-    return close(fd);
-}
-
 static int disk_rename(void *user, const char *from, const char *to) {
     (void)user;
     return rename(from, to);
@@ -242,9 +219,9 @@ static int disk_fsync_folder(void *user, const char *path) {
 const struct gn_state_files gn_state_disk = {
     .read_file = disk_read,
     .create = disk_create,
-    .write = disk_write,
-    .fsync = disk_fsync,
-    .close = disk_close,
+    .write = gn_disk_write,
+    .fsync = gn_disk_fsync,
+    .close = gn_disk_close,
     .rename = disk_rename,
     .fsync_folder = disk_fsync_folder,
 };

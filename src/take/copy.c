@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "core/arena.h"
+#include "core/disk.h"
 #include "core/hash.h"
 
 enum { PIECE = 1 << 18, REMOVE_DEPTH = 64 };
@@ -82,17 +83,6 @@ static ssize_t read_piece(const struct gn_take_files *files, int fd, char *out) 
     return (ssize_t)used;
 }
 
-static bool write_piece(const struct gn_take_files *files, int fd, const char *data, size_t size) {
-    while (size > 0) {
-        const ssize_t put = files->write(files->user, fd, data, size);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) return false;
-        data += put;
-        size -= (size_t)put;
-    }
-    return true;
-}
-
 static bool fail_write(const struct gn_take_walk *w, struct gn_err *err) {
     if (errno == EEXIST)
         return gn_fail(err, "%s: another name differs from it only in capitals; rename one",
@@ -112,7 +102,8 @@ static bool move_bytes(struct gn_take_walk *w, int from, int to, struct gn_err *
             return gn_fail(err, "%s: with this file the folder has more than %llu MB", w->path,
                            (unsigned long long)(w->limits.bytes >> 20));
         w->hash = gn_hash(w->hash, piece, (size_t)got);
-        if (to >= 0 && !write_piece(w->files, to, piece, (size_t)got)) return fail_write(w, err);
+        if (to >= 0 && !gn_disk_write_all(w->files->write, w->files->user, to, piece, (size_t)got))
+            return fail_write(w, err);
     }
     if (got < 0) return gn_fail(err, "%s: cannot read: %s", w->path, strerror(errno));
     w->hash = gn_hash(w->hash, &size, sizeof size);

@@ -9,6 +9,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "core/disk.h"
 #include "take/files.h"
 
 static int disk_open(void *user, int folder, const char *name, int flags, mode_t mode) {
@@ -19,21 +20,6 @@ static int disk_open(void *user, int folder, const char *name, int flags, mode_t
 static ssize_t disk_read(void *user, int fd, void *out, size_t size) {
     (void)user;
     return read(fd, out, size);
-}
-
-static ssize_t disk_write(void *user, int fd, const void *data, size_t size) {
-    (void)user;
-    return write(fd, data, size);
-}
-
-static int disk_fsync(void *user, int fd) {
-    (void)user;
-    return fsync(fd);
-}
-
-static int disk_close(void *user, int fd) {
-    (void)user;
-    return close(fd);
 }
 
 static int disk_mkdir(void *user, int folder, const char *name, mode_t mode) {
@@ -112,9 +98,9 @@ void gn_take_names_free(struct gn_take_names *names) {
 const struct gn_take_files gn_take_disk = {
     .open = disk_open,
     .read = disk_read,
-    .write = disk_write,
-    .fsync = disk_fsync,
-    .close = disk_close,
+    .write = gn_disk_write,
+    .fsync = gn_disk_fsync,
+    .close = gn_disk_close,
     .mkdir = disk_mkdir,
     .rename = disk_rename,
     .exchange = disk_exchange,
