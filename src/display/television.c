@@ -1,30 +1,20 @@
 #include "display/television.h"
 
-#include <errno.h>
-#include <pthread.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
-#include "core/thread.h"
+#include "core/worker.h"
 
 enum { UNPLUGGED_S = 5, STARTS_S = 2, GIVEN_UP_S = 60, STARTS_MAX = 10 };
 
-/* Shared with the thread; the last one to leave frees it. */
 struct gn_television {
+    struct gn_worker worker;
     struct gn_cec_opts cec; /* the thread's, with its two texts */
     char device[256], connector[64];
     int64_t second_ns;
-    int event;
-    pthread_mutex_t mutex; /* of all that follows */
-    pthread_cond_t changed;
-    bool closed;
-    int users;
-    char wanted_connector[64];
+    char wanted_connector[64]; /* from here on under the worker's mutex */
     struct gn_television_state state;
     int64_t due_ns; /* of the next attempt; INT64_MAX: none */
     int tries;  /* attempts since something else was wanted, but for those without a television, */
@@ -63,54 +53,29 @@ static void take_report(struct gn_television *t, bool on, const struct gn_cec_re
 }
 
 static void attempt(struct gn_television *t) {
-    static const uint64_t one = 1;
     const bool on = t->state.wanted == GN_TELEVISION_ON;
     struct gn_cec_report report;
     t->due_ns = INT64_MAX;
     t->state.told = GN_TELEVISION_ANY; /* a message may have come through, whatever becomes of it */
     memcpy(t->connector, t->wanted_connector, sizeof t->connector);
-    pthread_mutex_unlock(&t->mutex);
+    pthread_mutex_unlock(&t->worker.mutex);
     gn_cec_tell(&t->cec, on, &report);
-    pthread_mutex_lock(&t->mutex);
+    pthread_mutex_lock(&t->worker.mutex);
     take_report(t, on, &report);
-    if (!t->closed && write(t->event, &one, sizeof one) < 0) {
-    }
-}
-
-/* With the mutex locked, which it unlocks. */
-static void leave(struct gn_television *t) {
-    const bool is_last = --t->users == 0;
-    pthread_mutex_unlock(&t->mutex);
-    if (!is_last) return;
-    pthread_cond_destroy(&t->changed);
-    pthread_mutex_destroy(&t->mutex);
-    free(t);
+    gn_worker_tell(&t->worker);
 }
 
 static void *run_thread(void *argument) {
     struct gn_television *t = argument;
-    gn_thread_lower_priority();
-    pthread_mutex_lock(&t->mutex);
-    while (!t->closed) {
-        const struct timespec due = {t->due_ns / GN_NS_PER_S, t->due_ns % GN_NS_PER_S};
+    gn_worker_begin(&t->worker);
+    while (!t->worker.closed) {
         if (t->due_ns <= gn_clock_monotonic_ns())
             attempt(t);
-        else if (t->due_ns == INT64_MAX)
-            pthread_cond_wait(&t->changed, &t->mutex);
         else
-            pthread_cond_timedwait(&t->changed, &t->mutex, &due);
+            gn_worker_wait(&t->worker, t->due_ns);
     }
-    leave(t);
+    gn_worker_leave(&t->worker);
     return NULL;
-}
-
-static void init_locks(struct gn_television *t) {
-    pthread_condattr_t attributes;
-    pthread_condattr_init(&attributes);
-    pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
-    pthread_cond_init(&t->changed, &attributes);
-    pthread_condattr_destroy(&attributes);
-    pthread_mutex_init(&t->mutex, NULL);
 }
 
 struct gn_television *gn_television_open(const struct gn_television_opts *opts,
@@ -124,22 +89,15 @@ struct gn_television *gn_television_open(const struct gn_television_opts *opts,
     }
     t->second_ns = opts->second_ns > 0 ? opts->second_ns : GN_NS_PER_S;
     t->due_ns = INT64_MAX;
-    t->users = 2;
-    init_locks(t);
-    t->event = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    const int error = t->event < 0 ? errno : gn_thread_start_detached(run_thread, t);
+    const int error = gn_worker_start(&t->worker, run_thread);
     if (error == 0) return t;
     gn_fail(err, "cannot tell the television anything: %s", strerror(error));
-    if (t->event >= 0) close(t->event);
-    pthread_mutex_lock(&t->mutex);
-    t->users = 1;
-    leave(t);
     return NULL;
 }
 
 void gn_television_set(struct gn_television *t, bool on, const char *connector) {
     const enum gn_television_wish wish = on ? GN_TELEVISION_ON : GN_TELEVISION_STANDBY;
-    pthread_mutex_lock(&t->mutex);
+    pthread_mutex_lock(&t->worker.mutex);
     const bool moves = connector && connector[0] && strcmp(t->wanted_connector, connector) != 0;
     if (moves) {
         snprintf(t->wanted_connector, sizeof t->wanted_connector, "%s", connector);
@@ -150,27 +108,19 @@ void gn_television_set(struct gn_television *t, bool on, const char *connector) 
         t->state.waits[0] = '\0';
         t->tries = t->starts = 0;
         t->due_ns = t->state.told == wish ? INT64_MAX : 0; /* back before the thread saw it */
-        pthread_cond_signal(&t->changed);
+        pthread_cond_signal(&t->worker.changed);
     }
-    pthread_mutex_unlock(&t->mutex);
+    pthread_mutex_unlock(&t->worker.mutex);
 }
 
-int gn_television_fd(const struct gn_television *t) { return t->event; }
+int gn_television_fd(const struct gn_television *t) { return t->worker.event; }
 
 void gn_television_read(struct gn_television *t, struct gn_television_state *state) {
-    uint64_t count;
-    if (read(t->event, &count, sizeof count) < 0) {
-    }
-    pthread_mutex_lock(&t->mutex);
+    gn_worker_hear(&t->worker);
     *state = t->state;
-    pthread_mutex_unlock(&t->mutex);
+    pthread_mutex_unlock(&t->worker.mutex);
 }
 
 void gn_television_close(struct gn_television *t) {
-    if (!t) return;
-    pthread_mutex_lock(&t->mutex);
-    t->closed = true;
-    close(t->event);
-    pthread_cond_signal(&t->changed);
-    leave(t);
+    if (t) gn_worker_close(&t->worker);
 }
