@@ -52,10 +52,11 @@ struct sim_traits { /* of a card; zero is a normal one */
     bool legacy;    /* no atomic interface */
     bool no_vblank; /* no vblank: flips complete at once, as with virtio */
     bool modifiers, fences;
-    bool rotation; /* planes can rotate, and the console leaves one rotated */
-    bool overlays; /* other programs leave an overlay */
-    bool console;  /* initially shows the text console */
-    bool range;    /* connectors have "Broadcast RGB", and somebody has limited it */
+    bool rotation;    /* planes can rotate, and the console leaves one rotated */
+    bool overlays;    /* other programs leave an overlay */
+    bool console;     /* initially shows the text console */
+    bool range;       /* connectors have "Broadcast RGB", and somebody has limited it, */
+    bool keeps_range; /* and it cannot be changed with a mode */
 };
 #define SIM_RENDER_NODE "/dev/dri/renderD128" /* the only one */
 struct sim_gpu {                              /* of all cards */

@@ -46,7 +46,10 @@ static int set_connector(const struct sim_card *card, struct sim_connector_state
     case SIM_P_LINK:
         if (item->value == DRM_MODE_LINK_STATUS_GOOD) c->bad_link = false;
         return 0;
-    case SIM_P_RANGE: c->range = item->value; return item->value < 3 ? 0 : EINVAL;
+    case SIM_P_RANGE:
+        if (item->value >= 3 || card->traits.keeps_range) return EINVAL;
+        c->range = item->value;
+        return 0;
     default: return ENOENT;
     }
 }

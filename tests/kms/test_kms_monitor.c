@@ -196,26 +196,29 @@ static void test_range_of_levels(void **state) {
     (void)state;
     static const struct {
         enum gn_screen_range asked;
-        bool has, legacy;
+        bool has, keeps, legacy;
         uint64_t set;
         const char *said;
     } rows[] = {
-        {GN_RANGE_AUTO, true, false, SIM_RANGE_LIMITED, " atomic"},
-        {GN_RANGE_FULL, true, false, SIM_RANGE_FULL, ", full range"},
-        {GN_RANGE_LIMITED, true, false, SIM_RANGE_LIMITED, ", limited range"},
-        {GN_RANGE_FULL, true, true, SIM_RANGE_FULL, ", full range"},
-        {GN_RANGE_LIMITED, false, false, 0, " atomic"},
-        {GN_RANGE_LIMITED, false, true, 0, " legacy"},
+        {GN_RANGE_AUTO, true, false, false, SIM_RANGE_LIMITED, " atomic"},
+        {GN_RANGE_FULL, true, false, false, SIM_RANGE_FULL, ", full range"},
+        {GN_RANGE_LIMITED, true, false, false, SIM_RANGE_LIMITED, ", limited range"},
+        {GN_RANGE_FULL, true, true, false, SIM_RANGE_LIMITED, " atomic"},
+        {GN_RANGE_FULL, true, false, true, SIM_RANGE_FULL, ", full range"},
+        {GN_RANGE_LIMITED, false, false, false, 0, " atomic"},
+        {GN_RANGE_LIMITED, false, false, true, 0, " legacy"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const struct client_kind kind = {
-            .name = rows[i].said,
-            .traits = {.console = true, .range = rows[i].has, .legacy = rows[i].legacy},
-            .opts = {.range = rows[i].asked}};
+        const struct client_kind kind = {.name = rows[i].said,
+                                         .traits = {.console = true,
+                                                    .range = rows[i].has,
+                                                    .keeps_range = rows[i].keeps,
+                                                    .legacy = rows[i].legacy},
+                                         .opts = {.range = rows[i].asked}};
         client_begin(&c, &kind, SIM_FULL_HD);
         const char *what = client_screen(&c)->what;
         assert_int_equal(sim_range(0), rows[i].set);
-        const bool lacks = rows[i].asked != GN_RANGE_AUTO && !rows[i].has;
+        const bool lacks = rows[i].asked != GN_RANGE_AUTO && (!rows[i].has || rows[i].keeps);
         assert_int_equal(client_screen(&c)->lacks_range, lacks);
         assert_int_equal(client_screen(&c)->range, lacks ? GN_RANGE_AUTO : rows[i].asked);
         assert_true(strlen(what) > strlen(rows[i].said));

@@ -378,6 +378,12 @@ int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
         error = error_of(o->drm->ModeCreatePropertyBlob(o->fd, mode, sizeof *mode, &blob));
         if (error != 0) return error;
         error = commit_light(o, mode, fb, blob);
+        if (error == EINVAL && o->range.is_set) { /* the picture matters more */
+            o->range.is_set = false;
+            error = commit_light(o, mode, fb, blob);
+            o->range.is_set = error != 0; /* that was not the reason */
+            o->range.lacks = error == 0;
+        }
         o->drm->ModeDestroyPropertyBlob(o->fd, blob); /* the CRTC holds its own reference */
     } else {
         drmModeModeInfo copy = *mode;
