@@ -19,21 +19,37 @@ struct work {
 
 /* ---- in the child --------------------------------------------------------------------------- */
 
-/* Of a copy nothing is shown that lies beside it: that would not come with the stick. */
-static void check_places(const struct gn_options *o, const char *folder, struct gn_errors *errors) {
+static bool is_within(const char *path, const char *folder) {
     const size_t length = strlen(folder);
+    return strncmp(path, folder, length) == 0 && path[length] == '/';
+}
+
+static void check_place(const char *path, const char *label, const char *folder,
+                        struct gn_errors *errors) {
     char real[PATH_MAX];
     struct gn_err err = {0};
+    if (!path || !strchr(path, '/') || !realpath(path, real))
+        return; /* what is missing, the loader says */
+    if (is_within(real, folder)) return;
+    gn_fail(&err, "%s: \"%s\" is not in the folder gnomon; name it from there", label, path);
+    gn_errors_take(errors, &err);
+}
+
+/* Of a copy nothing is shown that lies beside it: that would not come with the stick. The machine's
+ * own kiosk.ini may name its font. */
+static void check_places(const struct gn_options *o, const char *folder, struct gn_errors *errors) {
     for (int i = 0; i < o->all_count; i++) {
-        const struct gn_scene_list *list = &o->all[i].scene.list;
-        for (int k = 0; k < list->count; k++) {
-            const char *path = list->paths[k];
-            if (!path || !realpath(path, real)) continue; /* what is missing, the loader says */
-            if (strncmp(real, folder, length) == 0 && real[length] == '/') continue;
-            gn_fail(&err, "%s: \"%s\" is not in the folder gnomon; name it from there",
-                    gn_settings_label(&o->all[i], scene.path), path);
-            gn_errors_take(errors, &err);
-        }
+        const struct gn_settings *s = &o->all[i];
+        const struct {
+            const char *path, *label;
+        } files[] = {{s->render.environment, gn_settings_label(s, render.environment)},
+                     {s->render.font, gn_settings_label(s, render.font)},
+                     {s->render.shaders, gn_settings_label(s, render.shaders)}};
+        for (int k = 0; k < s->scene.list.count; k++)
+            check_place(s->scene.list.paths[k], gn_settings_label(s, scene.path), folder, errors);
+        for (size_t k = 0; k < sizeof files / sizeof *files; k++)
+            if (is_within(files[k].label, folder))
+                check_place(files[k].path, files[k].label, folder, errors);
     }
 }
 

@@ -104,6 +104,11 @@ printf '[scene]\nfile = %s/red.gltf\n' "$folder" > $on/KIOSK.INI
 refused 'is not in the folder gnomon'
 printf '[scene]\nfile = ../../../red.gltf\n' > $on/KIOSK.INI
 refused 'is not in the folder gnomon'
+cp /usr/share/common-licenses/GPL-2 "$folder/outside.ttf" 2> /dev/null || cp red.gltf "$folder/outside.ttf"
+printf '[scene]\nfile = parts/b.gltf\n[render]\nfont = %s/outside.ttf\n' "$folder" > $on/KIOSK.INI
+refused 'gnomon/kiosk.ini:4: font: '
+printf '[scene]\nfile = parts/b.gltf\n[mode "A"]\nenvironment = ../../../outside.ttf\n' > $on/KIOSK.INI
+refused 'is not in the folder gnomon'
 printf '[scene]\nfile = parts/b.gltf\ncamera = Nobody\n' > $on/KIOSK.INI
 refused 'Nobody'
 head -c 300 red.gltf > $on/parts/b.gltf
