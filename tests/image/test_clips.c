@@ -79,6 +79,16 @@ static void clips_that_stand_draw_nothing(void **state) {
     }
 }
 
+static void play_past_its_fade(struct gn_show *show) {
+    act(show, GN_ACTION_PLAY, "gull");
+    draw_frame(show);
+    show->clips_begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
+    show->kiosk.play.time_ns = GN_NS_PER_S;
+    draw_frame(show);
+    draw_frame(show);
+    assert_true(show->stage.pose.fade == 1 && show->stage.pose.over >= 0);
+}
+
 static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
     (void)state;
     struct gn_show *show = open_show("[scene]\ntime = 3\n[mode \"A\"]\nshadow = pcf\n"
@@ -92,13 +102,7 @@ static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
     while (show->drawn.mode != 1) draw_frame(show);
     assert_true(show->stage.pose.fade < 1);
     assert_float_equal(pose_sum(show), before, 1e-2 * before);
-    act(show, GN_ACTION_PLAY, "gull");
-    draw_frame(show);
-    show->clips_begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
-    show->kiosk.play.time_ns = GN_NS_PER_S;
-    draw_frame(show);
-    draw_frame(show);
-    assert_true(show->stage.pose.fade == 1 && show->stage.pose.over >= 0);
+    play_past_its_fade(show);
     before = pose_sum(show);
     act(show, GN_ACTION_PLAY, "gull");
     draw_frame(show);
@@ -114,13 +118,7 @@ static void settings_that_change_start_no_clip_again(void **state) {
     struct gn_show *show = open_show("[mode \"A\"]\nshadow = pcf\n"
                                      "[kiosk]\ncaptions = no\nclip_fade = 5\n");
     until_warm(show);
-    act(show, GN_ACTION_PLAY, "gull");
-    draw_frame(show);
-    show->clips_begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
-    show->kiosk.play.time_ns = GN_NS_PER_S;
-    draw_frame(show);
-    draw_frame(show);
-    assert_true(show->stage.pose.fade == 1 && show->stage.pose.over >= 0);
+    play_past_its_fade(show);
     for (int i = 0; i < 20; i++) {
         gn_show_enter(show);
         draw_frame(show);

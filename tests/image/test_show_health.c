@@ -45,15 +45,27 @@ static void problem_becomes(struct gn_show *show, const char *start) {
     fail_msg("the problem is \"%s\"", gn_show_problem(show) ? gn_show_problem(show) : "");
 }
 
-static void an_undervoltage_is_a_problem_until_it_is_cured(void **state) {
-    (void)state;
-    char root[] = "/tmp/gnomon-board.XXXXXX";
+/* A kiosk on a Pi 4 whose files are in `root`, and well. */
+static struct gn_show *open_on_pi4(char *root) {
     assert_non_null(mkdtemp(root));
     health_pi4(root);
     struct gn_show *show =
         help_show_of("[kiosk]\n[mode \"a\"]\nshadow = none\n", (const char *const[]){NULL});
     gn_show_open_health(show, root, GN_NS_PER_S / 200);
     while (!show->health.log.begun) help_show_step(show);
+    return show;
+}
+
+static void close_and_remove(struct gn_show *show, const char *root) {
+    gn_show_close(show);
+    usleep(20000); /* the thread ends */
+    assert_int_equal(gn_test_remove_folder(root), 0);
+}
+
+static void an_undervoltage_is_a_problem_until_it_is_cured(void **state) {
+    (void)state;
+    char root[] = "/tmp/gnomon-board.XXXXXX";
+    struct gn_show *show = open_on_pi4(root);
     problem_becomes(show, NULL);
     board_is(show, false, 0, 392);
     assert_string_equal(show->health.summary, "");
@@ -67,21 +79,14 @@ static void an_undervoltage_is_a_problem_until_it_is_cured(void **state) {
         board_is(show, false, times, 392);
     }
     assert_string_equal(show->health.summary, "undervoltage 2 times before");
-    gn_show_close(show);
-    usleep(20000); /* the thread ends */
-    assert_int_equal(gn_test_remove_folder(root), 0);
+    close_and_remove(show, root);
 }
 
 /* Heat and CMA are kinds of their own: one that is cured leaves the other. */
 static void each_trouble_ends_for_itself(void **state) {
     (void)state;
     char root[] = "/tmp/gnomon-board.XXXXXX";
-    assert_non_null(mkdtemp(root));
-    health_pi4(root);
-    struct gn_show *show =
-        help_show_of("[kiosk]\n[mode \"a\"]\nshadow = none\n", (const char *const[]){NULL});
-    gn_show_open_health(show, root, GN_NS_PER_S / 200);
-    while (!show->health.log.begun) help_show_step(show);
+    struct gn_show *show = open_on_pi4(root);
     health_write(root, "sys/devices/platform/soc/soc:firmware/get_throttled", "8\n");
     problem_becomes(show, "throttled: the firmware lowers the clock to stay cool (48 C); cool");
     health_write(root, "proc/vmstat", "cma_alloc_fail 5\n");
@@ -90,9 +95,7 @@ static void each_trouble_ends_for_itself(void **state) {
     problem_becomes(show, "throttled: "); /* no request has failed since */
     health_write(root, "sys/devices/platform/soc/soc:firmware/get_throttled", "0\n");
     problem_becomes(show, NULL);
-    gn_show_close(show);
-    usleep(20000);
-    assert_int_equal(gn_test_remove_folder(root), 0);
+    close_and_remove(show, root);
 }
 
 int main(int argc, char **argv) {
