@@ -12,9 +12,11 @@ int gn_kiosk_scene(const struct gn_kiosk_rules *rules, const struct gn_kiosk_pla
     return own > 0 ? own - 1 : place->scene;
 }
 
-bool gn_kiosk_waits(const struct gn_kiosk *s) {
-    return s->shown.mode != s->wanted.mode || s->shown.scene != s->wanted.scene;
+static bool is_same_place(const struct gn_kiosk_place *a, const struct gn_kiosk_place *b) {
+    return a->mode == b->mode && a->scene == b->scene;
 }
+
+bool gn_kiosk_waits(const struct gn_kiosk *s) { return !is_same_place(&s->shown, &s->wanted); }
 
 bool gn_kiosk_is_dark(const struct gn_kiosk *s) { return s->blanked || (s->asleep && !s->woken); }
 
@@ -47,12 +49,14 @@ static void pass_until(struct gn_kiosk *s, int64_t time_ns) {
     s->seen_ns = time_ns;
 }
 
-/* The clips of the shown mode begin, or go with the scene's time. */
-static void enter_clips(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t time_ns) {
+/* The clips of the shown mode begin, or go with the scene's time. A clip that plays once ends,
+ * unless it was asked for after the mode was. */
+static void enter_clips(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int64_t time_ns,
+                        bool plays_on) {
     const bool restarts = rules->restarts >> s->shown.mode & 1;
     if (restarts) pass_until(s, time_ns);
     s->clips_begun_ns = restarts ? s->scene_ns : 0;
-    s->play = (struct gn_kiosk_play){0};
+    if (!plays_on) s->play = (struct gn_kiosk_play){0};
 }
 
 /* ---- what is wanted ---- */
@@ -110,7 +114,8 @@ static void act_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
         s->bad_modes &= ~(1u << e->mode); /* requested by name: try again */
         if (own > 0) s->bad_scenes &= ~(UINT64_C(1) << (own - 1));
         s->wanted.mode = e->mode;
-        if (rules->restarts >> e->mode & 1 && !gn_kiosk_waits(s)) enter_clips(rules, s, e->time_ns);
+        if (rules->restarts >> e->mode & 1 && !gn_kiosk_waits(s))
+            enter_clips(rules, s, e->time_ns, false);
     }
     set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
 }
@@ -143,7 +148,8 @@ static void act_play(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     if (e->clip < 0) return;
     if (s->paused) toggle_pause(s, e->time_ns);
     pass_until(s, e->time_ns);
-    s->play = (struct gn_kiosk_play){.clip_plus_1 = e->clip + 1, .length_ns = e->clip_ns};
+    s->play = (struct gn_kiosk_play){
+        .clip_plus_1 = e->clip + 1, .length_ns = e->clip_ns, .wanted = s->wanted};
 }
 
 static void act_pause(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
@@ -234,7 +240,8 @@ static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     if (e->scene != before || (enters && rules->own_camera >> e->mode & 1)) s->camera = 0;
     s->fade_begun_ns = rules->fade_ns > 0 ? e->time_ns : 0;
     s->shown = s->wanted;
-    enter_clips(rules, s, e->time_ns);
+    enter_clips(rules, s, e->time_ns,
+                e->scene == before && is_same_place(&s->play.wanted, &s->wanted));
 }
 
 static void give_up_scene(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,

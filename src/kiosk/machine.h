@@ -62,6 +62,7 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     struct gn_kiosk_play {
         int clip_plus_1; /* that plays once; 0: none. The scene's time stands meanwhile */
         int64_t time_ns, length_ns;
+        struct gn_kiosk_place wanted; /* when it began: it goes on when that is shown */
     } play;
 };
 

@@ -110,7 +110,9 @@ expect 0 'camera: 2' next-camera
 expect 0 'camera: 0' next-camera
 expect 0 'plays: gull' play gull
 expect 0 'plays: hoop' play 0
+expect 0 'plays: hoop' pause on
 expect 0 'plays: hoop' next-camera
+expect 0 'paused: no' pause off
 expect 2 "no animation named 'nosuch'; available: 0 'hoop', 1 'gull'" play nosuch
 expect 0 'camera: 2' next-camera
 expect 0 'camera: 0' next-camera

@@ -1,18 +1,7 @@
 /* The machine's screen off: by hand, by timers that say on or off, by the hours of a schedule. */
 #include "unit/check.h"
 
-#include "core/clock.h"
-#include "kiosk/machine.h"
-
-#define S GN_NS_PER_S
-
-static const struct gn_kiosk_rules three = {
-    .mode_count = 3, .scene_count = 2, .caption_ns = 2 * S, .fade_ns = S / 2};
-
-static struct gn_kiosk on(const struct gn_kiosk_rules *r, struct gn_kiosk s,
-                          enum gn_kiosk_event_kind kind, int64_t at) {
-    return gn_kiosk_step(r, &s, &(struct gn_kiosk_event){.kind = kind, .time_ns = at});
-}
+#include "unit/kiosk_help.h"
 
 static struct gn_kiosk turn(struct gn_kiosk s, enum gn_action_kind action, enum gn_turn turn,
                             bool pressed) {
