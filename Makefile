@@ -383,7 +383,7 @@ check-tangents: $(B)/tests/tool_tangents
 # (Mutants of scenes are many under the sanitizers alone: without, the same would pass again.)
 # What takes longest of these is left to full: under sanitizers the tests of pictures that tests/timeouts
 # names (SLOW), the long forms of LONGEST and of machines (more of the same: presses, replugs, frames, seconds
-# of rest), figures of bench that mean something, and four of the seven GPUs. All run at once, at the end:
+# of rest), four fifths of the mutants, figures of bench that mean something, and four of the seven GPUs. All run at once, at the end:
 # machines wait a lot, and other tests have the processors then.
 PICTURES := $(filter tests/image/%,$(PROG_C))
 SLOW    := $(filter $(shell awk '$$2 ~ /^[0-9]/ { print "tests/image/" $$1 ".c" }' tests/timeouts),$(PICTURES))
@@ -398,7 +398,7 @@ accept:
 	+$(SUB) lint
 	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(LONGEST))) tests/board/smoke.guest \
 	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(SLOW),$(PICTURES))) tests/check_hostile.sh \
-	    GN_FULL=1 $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan,$(PROG_C))) \
+	    GN_FULL=1 GN_MUTANTS=4000 $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan,$(PROG_C))) \
 	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(LONGEST)),$(sort $(call programs,$(O)/release,$(call LONG,$(filter-out %/test_scene_mutations.c,$(PROG_C)))) \
 	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
 	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) \
@@ -412,7 +412,7 @@ full:
 	+$(SUB) WERROR=1 CONFIG=asan tests
 	+$(SUB) CC=clang WERROR=1 CONFIG=debug tests
 	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(SLOW)) \
-	    GN_FULL=1 $(call programs,$(O)/asan,$(filter tests/kms/%,$(PROG_C))) GN_FULL= \
+	    GN_FULL=1 $(call programs,$(O)/asan,$(filter tests/kms/% %/test_scene_mutations.c,$(PROG_C))) GN_FULL= \
 	    BUILD=$(O)/release GN_FULL=1 $(call programs,$(O)/release,$(LONGEST))
 	@tests/run.sh BUILD=$(O)/release GN_FULL=1 tests/image/accept_bench.sh
 	+$(SUB) GN_FULL=1 check-angle
