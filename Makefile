@@ -141,7 +141,7 @@ SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-fra
 # no path of the build in it: two folders give the same bytes
 CFLAGS_release = -O2 -g -DNDEBUG $(HARDEN) -ffile-prefix-map=$(CURDIR)=.
 CFLAGS_debug   = -Og -g
-CFLAGS_asan    = -O1 -g $(SANITIZE)
+CFLAGS_asan    = -O1 -g1 $(SANITIZE)
 CFLAGS_cov     = -O0 -g --coverage
 LDFLAGS_release = -pie -Wl,-z,relro,-z,now
 LDFLAGS_asan    = $(SANITIZE) -Wl,--export-dynamic-symbol=dlclose

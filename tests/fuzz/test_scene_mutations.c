@@ -5,7 +5,7 @@
  * number.
  *
  *   test_scene_mutations [FIRST [COUNT]]    COUNT: default GN_MUTANTS, 20,000 with GN_FULL=1, else
- * 1,500; mutants that fail are left in mutant-N.glb */
+ * 500; mutants that fail are left in mutant-N.glb */
 #include <ftw.h>
 #include <inttypes.h>
 #include <limits.h>
@@ -383,7 +383,7 @@ static void try_allocations(const struct gn_made *seed) {
 int main(int argc, char **argv) {
     size_t first = argc > 1 ? strtoul(argv[1], NULL, 10) : 0;
     const char *count = argc > 2 ? argv[2] : getenv("GN_MUTANTS");
-    size_t most = count ? strtoul(count, NULL, 10) : getenv("GN_FULL") ? 20000 : 1500;
+    size_t most = count ? strtoul(count, NULL, 10) : getenv("GN_FULL") ? 20000 : 500;
     gather_seeds();
     try_seeds();
     for (size_t i = 0; i < GN_SEED_COUNT; i++) try_allocations(&seeds[i]);
