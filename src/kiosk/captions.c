@@ -129,5 +129,6 @@ int64_t gn_show_captions_due_ns(const struct gn_show *s) {
 
 int64_t gn_show_bar_due_ns(const struct gn_show *s) {
     const bool loads = s->text.bar >= 0 || gn_loader_number(s->scenes.loader) >= 0;
-    return loads ? gn_loop_now_ns(s->loop) + PATIENCE_NS : INT64_MAX;
+    const bool shows = s->stage.display.screen.lit && !s->drawn.dark;
+    return loads && shows ? gn_loop_now_ns(s->loop) + PATIENCE_NS : INT64_MAX;
 }

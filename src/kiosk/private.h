@@ -363,7 +363,8 @@ void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *vi
 const char *gn_show_path_name(const char *path);
 /* When the texts need another frame; 0: at once, INT64_MAX: never. */
 int64_t gn_show_captions_due_ns(const struct gn_show *show);
-/* The bar of a load wants another frame; when to ask again (INT64_MAX: nothing loads). */
+/* The bar of a load wants another frame; when to ask again (INT64_MAX: nothing loads,
+ * or the screen is dark or has no monitor). */
 bool gn_show_bar_moves(const struct gn_show *show);
 int64_t gn_show_bar_due_ns(const struct gn_show *show);
 

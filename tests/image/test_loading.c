@@ -264,6 +264,21 @@ static void a_first_scene_that_fails_late_is_replaced_by_the_last_good_one(void 
     gn_show_close(show);
 }
 
+/* The loop would wake ten times a second for a bar that nobody sees. */
+static void no_bar_is_waited_for_without_a_lit_screen(void **state) {
+    (void)state;
+    write_importer(false);
+    struct gn_show *show = open_show(in_folder("slow.obj"));
+    bool *lit = &show->stage.display.screen.lit, *dark = &show->drawn.dark;
+    frames(show, 1);
+    assert_true(gn_show_bar_due_ns(show) < INT64_MAX);
+    *lit = false;
+    assert_true(gn_show_bar_due_ns(show) == INT64_MAX);
+    *lit = *dark = true;
+    assert_true(gn_show_bar_due_ns(show) == INT64_MAX);
+    gn_show_close(show);
+}
+
 static void the_end_does_not_wait_for_the_first_scene(void **state) {
     (void)state;
     write_importer(false);
@@ -285,6 +300,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_bad_reload_keeps_the_scene),
         cmocka_unit_test(the_first_picture_does_not_wait_for_the_first_scene),
         cmocka_unit_test(a_first_scene_that_fails_late_is_replaced_by_the_last_good_one),
+        cmocka_unit_test(no_bar_is_waited_for_without_a_lit_screen),
         cmocka_unit_test(the_end_does_not_wait_for_the_first_scene),
     };
     return cmocka_run_group_tests(tests, begin, end);
