@@ -20,12 +20,14 @@ debs=$(find "$O/deb/$suite" -name 'gnomon*_amd64.deb' ! -name '*dbgsym*' 2> /dev
 # shellcheck disable=SC2086
 needs=$(for deb in $debs; do dpkg-deb -f $deb Depends Recommends; done | sha256sum | cut -c 1-8)
 root=$store/service-$suite-$(sha256sum < "$0" | cut -c 1-12)-$needs
+mkdir -p "$store"
+exec 9> "$store/service.lock" && flock 9 # tests that run beside each other want the same one
 if [ ! -e "$root/.made" ]; then
     mirror=$(apt-get --print-uris update 2> /dev/null |
         sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
     [ -n "$mirror" ] || skip "apt's sources name no mirror of $codename"
     echo "board: making the root of $suite with systemd, once" >&2
-    rm -rf "$root" && mkdir -p "$store"
+    rm -rf "$root"
     mmdebstrap --mode=root --variant=minbase --skip=cleanup/apt --quiet \
         --include=systemd-sysv,udev,dbus,kmod,mawk,busybox-static,procps,kbd,ca-certificates,sudo,dosfstools \
         "$suite" "$root" "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] $mirror $suite main" \
