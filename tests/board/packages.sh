@@ -52,7 +52,7 @@ appstreamcli validate --no-net --override=cid-desktopapp-is-not-rdns=info \
 mkdir "$work/units"
 find "$work/root" -name 'gnomon*.service' | while read -r unit; do
     name=${unit##*/}
-    sed 's,/usr/bin/gnomon,/bin/true,' "$unit" > "$work/units/${name/@/@left}"
+    sed 's,/usr/\(bin/gnomon\|lib/gnomon/take\),/bin/true,' "$unit" > "$work/units/${name/@/@left}"
 done
 for unit in "$work"/units/*; do
     systemd-analyze verify --man=no "$unit" 2>&1 | grep -F "${unit##*/}" && complain "${unit##*/}"
