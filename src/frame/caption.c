@@ -15,6 +15,43 @@ static void add_rectangle(struct gn_frame *frame, const struct gn_caption_quad *
         .surface = {(float)q->atlas_x, (float)q->atlas_y, alpha, q->ground ? 1.0f : 0.0f}};
 }
 
+struct bounds {
+    int32_t left, top, right, bottom; /* pixels, top row first; empty: right is not above left */
+};
+
+static struct bounds visible_bounds(const struct gn_caption_run *run) {
+    struct bounds seen = {.left = INT32_MAX, .top = INT32_MAX};
+    for (uint32_t i = 0; run && i < run->quad_count; i++) {
+        const struct gn_caption_quad *q = &run->quads[i];
+        if (run->alpha[q->caption] <= 0.0f) continue;
+        if (q->x < seen.left) seen.left = q->x;
+        if (q->y < seen.top) seen.top = q->y;
+        if (q->x + q->width > seen.right) seen.right = q->x + q->width;
+        if (q->y + q->height > seen.bottom) seen.bottom = q->y + q->height;
+    }
+    return seen;
+}
+
+/* The nearest to `by` that moves from..to without leaving 0..size; 0 if nothing is there. */
+static int32_t moved_within(int32_t by, int32_t from, int32_t to, int32_t size) {
+    const int32_t most = by < size - to ? by : size - to;
+    return from >= to ? 0 : most > -from ? most : -from;
+}
+
+/* As far to the right and up as the scene, as far as the picture reaches; so are their bounds. */
+static void add_quads(struct gn_frame *frame, const struct gn_caption_run *run, struct bounds *seen,
+                      const int shift_px[2]) {
+    const int32_t x = moved_within(shift_px[0], seen->left, seen->right, (int32_t)run->width_px),
+                  y = moved_within(-shift_px[1], seen->top, seen->bottom, (int32_t)run->height_px);
+    for (uint32_t i = 0; i < run->quad_count; i++) {
+        struct gn_caption_quad q = run->quads[i];
+        q.x += x;
+        q.y += y;
+        if (run->alpha[q.caption] > 0.0f) add_rectangle(frame, &q, run->alpha[q.caption]);
+    }
+    *seen = (struct bounds){seen->left + x, seen->top + y, seen->right + x, seen->bottom + y};
+}
+
 /* In a target that is blended as stored the share of light is exact on white, and close below. */
 static void add_dimming(struct gn_frame *frame, float share) {
     const struct gn_caption_quad all = {.width = (int32_t)frame->picture.width_px,
@@ -46,25 +83,17 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
         (run->width_px != frame->picture.width_px || run->height_px != frame->picture.height_px))
         run = NULL;
     const uint32_t first = frame->instances.count;
-    int32_t left = INT32_MAX, top = INT32_MAX, right = 0, bottom = 0; /* of what is visible */
-    for (uint32_t i = 0; run && i < run->quad_count; i++) {
-        const struct gn_caption_quad *q = &run->quads[i];
-        if (run->alpha[q->caption] <= 0.0f) continue;
-        add_rectangle(frame, q, run->alpha[q->caption]);
-        if (q->x < left) left = q->x;
-        if (q->y < top) top = q->y;
-        if (q->x + q->width > right) right = q->x + q->width;
-        if (q->y + q->height > bottom) bottom = q->y + q->height;
-    }
+    struct bounds seen = visible_bounds(run);
+    if (run) add_quads(frame, run, &seen, opts->view.shift_px);
     if (opts->dimmed > 0.0f) {
         add_dimming(frame, opts->dimmed);
-        left = top = 0;
-        right = (int32_t)frame->picture.width_px;
-        bottom = (int32_t)frame->picture.height_px;
+        seen = (struct bounds){.right = (int32_t)frame->picture.width_px,
+                               .bottom = (int32_t)frame->picture.height_px};
     }
-    if (right <= left) return;
-    const struct gn_rect rect = {(uint32_t)left, frame->picture.height_px - (uint32_t)bottom,
-                                 (uint32_t)(right - left), (uint32_t)(bottom - top)};
+    if (seen.right <= seen.left) return;
+    const struct gn_rect rect = {
+        (uint32_t)seen.left, frame->picture.height_px - (uint32_t)seen.bottom,
+        (uint32_t)(seen.right - seen.left), (uint32_t)(seen.bottom - seen.top)};
     struct gn_pass *pass = gn_frame_picture_pass(frame, "captions");
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_CAPTION);
     if (frame->plan.finishes) pass->target.kind = GN_TARGET_ENCODED;

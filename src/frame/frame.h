@@ -92,7 +92,8 @@ struct gn_frame_view_opts {
     struct gn_orbit orbit; /* the camera moved by the user */
     struct gn_framing_opts framing; /* but its aspect, which is that of the picture */
     float turntable_rad; /* the camera is rotated about +Y through the scene's centre by this */
-    int shift_px[2];     /* the scene stands so far to the right and up in the picture */
+    int shift_px[2]; /* scene and captions stand so far to the right and up in the picture; captions
+                        no further than its edge */
 };
 
 struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it */

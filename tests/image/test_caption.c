@@ -301,6 +301,27 @@ static void test_turned(void **state) {
     }
 }
 
+/* Against burn-in: with the scene, byte by byte, and never out of the picture. */
+static void test_shifted(void **state) {
+    (void)state;
+    const struct gn_caption_run *run = run_at(0);
+    int margin_px = WIDTH;
+    for (uint32_t i = 0; i < run->quad_count; i++)
+        if (run->quads[i].x < margin_px) margin_px = run->quads[i].x;
+    const int by[][2] = {{5, 3}, {-4, -2}, {-WIDTH, 1}};
+    opts.view.camera = 1; /* looks away */
+    draw(run, shown);
+    for (int i = 0; i < 3; i++) {
+        const int x_px = by[i][0] > -margin_px ? by[i][0] : -margin_px;
+        memcpy(opts.view.shift_px, by[i], sizeof by[i]);
+        draw(run, other);
+        for (int y = 4; y < HEIGHT - 4; y++)
+            for (int x = margin_px; x < WIDTH - 5; x++)
+                if (memcmp(shown[y * WIDTH + x], other[(y - by[i][1]) * WIDTH + x + x_px], 4) != 0)
+                    fail_msg("shifted by %d, %d: %d, %d", by[i][0], by[i][1], x, y);
+    }
+}
+
 /* With that share of its light, of what was drawn of each target. */
 static void expect_dimmed(float left, const uint8_t before[PIXELS][4]) {
     const bool stores_light = encodes() && !opts.unencoded;
@@ -337,6 +358,7 @@ static void test_a_dimmed_picture_has_less_light(void **state) {
 
 static void test_the_pass_says_where_it_draws(void **state) {
     (void)state;
+    opts.view.shift_px[0] = 7, opts.view.shift_px[1] = -9;
     draw(NULL, bare);
     const struct gn_plan *plan = draw(run_at(0), shown);
     const struct gn_rect *r = &plan->passes[plan->pass_count - 1].rect;
@@ -387,6 +409,7 @@ int main(void) {
         TEST(test_aovs_have_none),
         TEST(test_over_many_lights),
         TEST(test_turned),
+        TEST(test_shifted),
         TEST(test_a_dimmed_picture_has_less_light),
         TEST(test_the_pass_says_where_it_draws),
         TEST(test_frames_make_nothing),
