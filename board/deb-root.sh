@@ -5,8 +5,6 @@
 set -eu
 suite=$1 arch=$2 source=$3
 own=$(dpkg --print-architecture)
-# shellcheck disable=SC1091
-codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
 store=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/deb
 root=$store/$suite-$arch
 [ "$(id -u)" = 0 ] || { echo "deb-root.sh: only root can build for $arch of $suite" >&2 && exit 1; }
@@ -14,9 +12,7 @@ for tool in mmdebstrap chroot; do
     command -v "$tool" > /dev/null || { echo "deb-root.sh: needs $tool" >&2 && exit 1; }
 done
 
-mirror=$(apt-get --print-uris update 2> /dev/null |
-    sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
-[ -n "$mirror" ] || { echo "deb-root.sh: apt's sources name no mirror of $codename" >&2 && exit 1; }
+mirror=$(sh "$(dirname "$0")/mirror.sh")
 cross='' architectures=$own
 [ "$arch" = "$own" ] || { cross=crossbuild-essential-$arch architectures=$own,$arch; }
 if [ ! -e "$root/.made" ]; then

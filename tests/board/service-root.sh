@@ -23,9 +23,7 @@ root=$store/service-$suite-$(sha256sum < "$0" | cut -c 1-12)-$needs
 mkdir -p "$store"
 exec 9> "$store/service.lock" && flock 9 # tests that run beside each other want the same one
 if [ ! -e "$root/.made" ]; then
-    mirror=$(apt-get --print-uris update 2> /dev/null |
-        sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
-    [ -n "$mirror" ] || skip "apt's sources name no mirror of $codename"
+    mirror=$(sh "$(dirname "$0")/../../board/mirror.sh") || skip 'no packages to make a root of'
     echo "board: making the root of $suite with systemd, once" >&2
     rm -rf "$root"
     mmdebstrap --mode=root --variant=minbase --skip=cleanup/apt --quiet \

@@ -47,9 +47,7 @@ Dir::State::status "$state/status";
 Dir::Cache "$state/cache";
 END
 if [ "$suite" != "$codename" ]; then
-    mirror=$(apt-get --print-uris update 2> /dev/null |
-        sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
-    [ -n "$mirror" ] || skip "apt's sources name no mirror of $codename, where $suite could be"
+    mirror=$(sh "$(dirname "$0")/../../board/mirror.sh") || skip "nothing of $suite to be had"
     keys=/usr/share/keyrings/debian-archive-keyring.gpg
     echo "deb [signed-by=$keys] $mirror $suite main" > "$state/sources.list"
     cat >> "$state/apt.conf" << END

@@ -1,0 +1,9 @@
+#!/bin/sh
+# mirror.sh: prints the mirror that apt's sources name for this machine's Debian, as Debian's other suites are there, too.
+# Exit status 1, with the reason on stderr, where they name none.
+# shellcheck disable=SC1091
+codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
+mirror=$(apt-get --print-uris update 2> /dev/null |
+    sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
+[ -n "$mirror" ] || { echo "apt's sources name no mirror of $codename" >&2 && exit 1; }
+echo "$mirror"
