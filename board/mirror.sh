@@ -3,7 +3,10 @@
 # Exit status 1, with the reason on stderr, where they name none.
 # shellcheck disable=SC1091
 codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-unknown}")
-mirror=$(apt-get --print-uris update 2> /dev/null |
+# other vendors' repositories may have a suite of that name; without lists apt knows no origin yet
+mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' "Codename: $codename" 'Component: main' 2> /dev/null | head -n 1)
+[ -n "$mirror" ] || mirror=$(apt-get --print-uris update 2> /dev/null |
     sed -n "s,^'\(.*\)/dists/$codename/InRelease'.*,\1,p" | head -n 1)
+mirror=${mirror%/}
 [ -n "$mirror" ] || { echo "apt's sources name no mirror of $codename" >&2 && exit 1; }
 echo "$mirror"

@@ -305,19 +305,22 @@ static void test_turned(void **state) {
 static void test_shifted(void **state) {
     (void)state;
     const struct gn_caption_run *run = run_at(0);
-    int margin_px = WIDTH;
-    for (uint32_t i = 0; i < run->quad_count; i++)
-        if (run->quads[i].x < margin_px) margin_px = run->quads[i].x;
-    const int by[][2] = {{5, 3}, {-4, -2}, {-WIDTH, 1}};
+    int left_px = WIDTH, above_px = HEIGHT;
+    for (uint32_t i = 0; i < run->quad_count; i++) {
+        if (run->quads[i].x < left_px) left_px = run->quads[i].x;
+        if (run->quads[i].y < above_px) above_px = run->quads[i].y;
+    }
+    const int by[][2] = {{5, 3}, {-4, -2}, {-WIDTH, HEIGHT}};
     opts.view.camera = 1; /* looks away */
     draw(run, shown);
     for (int i = 0; i < 3; i++) {
-        const int x_px = by[i][0] > -margin_px ? by[i][0] : -margin_px;
+        const int right_px = by[i][0] > -left_px ? by[i][0] : -left_px,
+                  up_px = by[i][1] < above_px ? by[i][1] : above_px;
         memcpy(opts.view.shift_px, by[i], sizeof by[i]);
         draw(run, other);
-        for (int y = 4; y < HEIGHT - 4; y++)
-            for (int x = margin_px; x < WIDTH - 5; x++)
-                if (memcmp(shown[y * WIDTH + x], other[(y - by[i][1]) * WIDTH + x + x_px], 4) != 0)
+        for (int y = above_px; y < HEIGHT - 2; y++)
+            for (int x = left_px; x < WIDTH - 5; x++)
+                if (memcmp(shown[y * WIDTH + x], other[(y - up_px) * WIDTH + x + right_px], 4) != 0)
                     fail_msg("shifted by %d, %d: %d, %d", by[i][0], by[i][1], x, y);
     }
 }
