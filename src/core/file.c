@@ -171,7 +171,7 @@ static bool write_in_place(const char *path, int flags, const void *data, size_t
     return ok;
 }
 
-/* A file that exists keeps its mode, and nobody else may read its successor before that. */
+/* A file that exists keeps its mode; until that is set only this user may read its successor. */
 static bool write_and_rename(const char *path, const struct stat *old, const void *data,
                              size_t size, struct gn_err *err) {
     /* a new file beside the path */

@@ -18,7 +18,7 @@ static void lay_screen(const struct gn_frame *frame, uint32_t light, struct gn_s
 }
 
 /* The lesson about clearing: the near end's code stands where nothing is drawn. What is drawn is
- * the same, so the hash has to tell. */
+ * the same, so the hash has to differ. */
 static void set_clear(struct gn_shadow_view *view, bool near_end) {
     struct gn_shadow_code *code = &view->code;
     code->clear = near_end ? code->scale * code->near_m + code->offset : code->far_end;

@@ -379,7 +379,7 @@ void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
 
 void gn_show_take_moves(struct gn_show *show, struct gn_pointer *pointer);
 void gn_show_wake_by_hand(struct gn_show *show); /* after gn_show_take_input() */
-void gn_show_deafen(struct gn_show *show);
+void gn_show_suppress_taps(struct gn_show *show);
 void gn_show_turn_home(struct gn_show *show); /* the view is the camera's again */
 bool gn_show_turntable_moves(const struct gn_show *show);
 int64_t gn_show_turntable_due_ns(const struct gn_show *show); /* when it goes on; INT64_MAX */

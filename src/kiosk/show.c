@@ -73,7 +73,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     const uint32_t idled = s->kiosk.idled;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
     if (s->kiosk.idled != idled) gn_show_turn_home(s);
-    gn_show_deafen(s);
+    gn_show_suppress_taps(s);
     const bool off = s->kiosk.blanked || (gn_kiosk_is_dark(&s->kiosk) && !s->rules.sleeps_black);
     if (off != screen->blank) gn_display_blank(&s->stage.display, off, tick.time_ns);
     gn_show_step_television(s);

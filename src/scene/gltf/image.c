@@ -27,7 +27,7 @@ static const struct format {
 };
 #define OTHER_FORMAT "neither PNG, JPEG, WebP nor KTX2"
 enum { KTX2 = sizeof FORMATS / sizeof FORMATS[0] - 1 };
-enum { HEAD_BYTES = 12 }; /* that tell the format */
+enum { HEAD_BYTES = 12 }; /* that identify the format */
 
 /* ---- pictures ---- */
 

@@ -10,7 +10,7 @@
 
 /* ---- parsing ---- */
 
-/* The parser recurses and allocates as the text tells it to: bound both before it starts. A
+/* The parser recurses and allocates as the text demands: bound both before it starts. A
  * container or a key costs jansson about 256 bytes, any other value about 96; the text is copied
  * once by gn_json_text_replace() and once, as strings, by jansson. */
 static bool check_json_size(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
