@@ -65,6 +65,10 @@ bool gn_material_is_specular(const struct gn_material *material); /* has a highl
  * where its transmission texture is 0. */
 bool gn_material_has_opaque_texels(const struct gn_material *material);
 #define GN_OPAQUE_ALPHA 0.99f
+/* Alpha below which a masked material has a hole: its cutoff, less half a step of 8 bits, so that
+ * an alpha equal to the cutoff is opaque (glTF 2.0, 3.9.4) however the product of texture, factor
+ * and vertex is rounded. A cutoff over 1 leaves nothing. */
+float gn_material_least_alpha(const struct gn_material *material);
 bool gn_material_is_metal(const struct gn_material *material); /* in places */
 /* Clear coat and transmission, in places; neither of unlit materials. */
 bool gn_material_is_coated(const struct gn_material *material);

@@ -178,7 +178,7 @@ static bool is_hole(const struct gn_raycast *rays, const struct gn_bvh_triangle 
                     const struct gn_bvh_hit *hit) {
     return (t->flags & MASKED) &&
            alpha_at(rays, t, hit) <
-               rays->materials[rays->scene->items[t->item].material].alpha_cutoff;
+               gn_material_least_alpha(&rays->materials[rays->scene->items[t->item].material]);
 }
 
 /* --- the eye --- */

@@ -375,8 +375,24 @@ static void test_batches(void **state) {
     assert_int_equal(batches_of("[{'extensions':{'KHR_materials_unlit':{}}},{}]"), 2);
 }
 
+/* As files have it: a cutoff in as many digits as an exporter writes. */
+static void test_an_alpha_equal_to_the_cutoff_is_opaque(void **state) {
+    (void)state;
+    for (int alpha = 1; alpha < 256; alpha++)
+        for (int digits = 3; digits < 9; digits++) {
+            char text[16];
+            snprintf(text, sizeof text, "%.*f", digits, alpha / 255.0);
+            const struct gn_material m = {.alpha_cutoff = strtof(text, NULL)};
+            const float least = gn_material_least_alpha(&m);
+            if (least > alpha / 255.0 || least <= (alpha - 1) / 255.0) fail_msg("%s", text);
+        }
+    const struct gn_material nothing = {.alpha_cutoff = 1.001f};
+    assert_true(gn_material_least_alpha(&nothing) > 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_an_alpha_equal_to_the_cutoff_is_opaque),
         cmocka_unit_test_setup(test_factors, setup_with_material),
         cmocka_unit_test_setup(test_texture_transform, setup_with_material),
         cmocka_unit_test_setup(test_samplers, setup_with_material),
