@@ -120,6 +120,24 @@ static void test_time_is_exact_after_years(void **state) {
     assert_true(pose.world_from_node[0][3][0] == 1);
 }
 
+/* Of a clip that was cut from a longer one. */
+static void test_keys_before_zero_are_played_from_zero_on(void **state) {
+    (void)state;
+    static const float times[] = {-1, 1, 3};
+    const int input = gn_maker_accessor(&maker, "SCALAR", 5126, 3, times, sizeof times, NULL);
+    char json[200];
+    snprintf(json, sizeof json,
+             "{'samplers':[{'input':%d,'output':%d}],"
+             "'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}]}",
+             input, MOVE);
+    gn_maker_add(&maker, "animations", json);
+    load(GN_POSE_DEFAULT);
+    assert_int_equal(warnings.count, 0);
+    assert_int_equal(scene->animation.clips[0].duration_ns, 3 * GN_NS_PER_S);
+    assert_at(0, 0, 2, 0, 0);
+    assert_at(1, 0, 4, 0, 0);
+}
+
 static void test_clips(void **state) {
     (void)state;
     animate("translation", MOVE, "LINEAR");
@@ -467,6 +485,7 @@ int main(void) {
         TEST(test_cubic),
         TEST(test_rotation_takes_the_short_way),
         TEST(test_time_is_exact_after_years),
+        TEST(test_keys_before_zero_are_played_from_zero_on),
         TEST(test_clips),
         TEST(test_a_clip_over_others),
         TEST(test_turns_and_speed_of_clips),
