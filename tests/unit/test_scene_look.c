@@ -341,6 +341,21 @@ static void test_later_work_is_named_once(void **state) {
     gn_scene_destroy(scene);
 }
 
+static void test_each_extension_that_no_reader_knows_is_named(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "extensionsUsed",
+                 "['KHR_interactivity','KHR_texture_transform','KHR_xmp_json_ld',"
+                 "'KHR_materials_sheen','KHR_interactivity','EXT_\\u0001one']");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0,"
+                 "'targets':[{'POSITION':0,'TEXCOORD_0':0}]}]}]");
+    gn_maker_set(&maker, "materials", "[{}]");
+    struct gn_scene *scene = load();
+    assert_string_equal(scene->missing, "morphs of colours and texture coordinates, "
+                                        "KHR_interactivity, EXT_?one");
+    gn_scene_destroy(scene);
+}
+
 /* ---- batches ---- */
 
 static uint32_t batches_of(const char *materials) {
@@ -408,6 +423,8 @@ int main(void) {
         cmocka_unit_test_setup(test_a_damaged_view_is_decoded_once, setup_with_material),
         cmocka_unit_test_setup(test_missing_picture_file, setup_with_material),
         cmocka_unit_test_setup(test_later_work_is_named_once, setup_with_material),
+        cmocka_unit_test_setup(test_each_extension_that_no_reader_knows_is_named,
+                               setup_with_material),
         cmocka_unit_test_setup(test_batches, setup_with_material),
     };
     return RUN(tests);

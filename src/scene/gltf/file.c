@@ -161,7 +161,7 @@ static const struct cure {
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 
-static bool is_supported(const char *name) {
+bool gn_gltf_supports(const char *name) {
     for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
         if (strcmp(SUPPORTED[i], name) == 0) return true;
     return (strcmp(name, "EXT_meshopt_compression") == 0 ||
@@ -208,7 +208,7 @@ bool gn_gltf_check_support(struct gn_gltf *g) {
         if (!name) return gn_gltf_fail(g, &at, "must be a string");
         for (size_t k = 0; k < sizeof CURES / sizeof CURES[0]; k++)
             if (strcmp(CURES[k].extension, name) == 0) cure = CURES[k].what_to_do;
-        if (!is_supported(name))
+        if (!gn_gltf_supports(name))
             return gn_gltf_fail(g, &at, "%.80s is not supported; %s", name, cure);
     }
     return !g->failed;
