@@ -87,8 +87,14 @@ bool gn_scene_complete(struct gn_gltf *g) {
             gn_box_join(&scene->box, &box);
         }
     }
-    if (scene->box.min[0] > scene->box.max[0]) /* nothing is visible in the initial pose */
+    if (scene->box.min[0] > scene->box.max[0]) { /* nothing is visible in the initial pose */
         scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
+        if (scene->animation.clip_count == 0)
+            gn_gltf_warn(
+                g, NULL,
+                "nothing can be seen: all that is shown has a scale of 0, no area, or lies "
+                "too far off");
+    }
     gn_scene_find_planes(g, &pose);
     gn_gltf_variant_planes(g);
     const bool measured = gn_scene_measure(g, &pose);

@@ -309,6 +309,15 @@ static void test_items_follow_and_nothing_is_allocated(void **state) {
     assert_int_equal(gn_alloc_count(), before);
 }
 
+static void test_a_scene_without_anything_to_see_is_named(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "nodes", "[{'mesh':0,'scale':[0,0,0]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0]}]");
+    load(GN_POSE_NONE);
+    assert_int_equal(warnings.count, 1);
+    assert_non_null(strstr(warnings.text[0], "nothing can be seen"));
+}
+
 static void test_mirrored_and_invisible(void **state) {
     (void)state;
     gn_maker_set(
@@ -493,6 +502,7 @@ int main(void) {
         TEST(test_a_fade_between_clips),
         TEST(test_items_follow_and_nothing_is_allocated),
         TEST(test_mirrored_and_invisible),
+        TEST(test_a_scene_without_anything_to_see_is_named),
         TEST(test_unusable_channels_are_left_out),
         TEST(test_a_matrix_that_is_animated),
         TEST(test_view_and_light),
