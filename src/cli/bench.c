@@ -10,7 +10,7 @@
 #include "cli/bench_move.h"
 #include "cli/bench_report.h"
 #include "cli/commands.h"
-#include "cli/driver_cache.h"
+#include "stage/driver_cache.h"
 #include "cli/memory.h"
 #include "core/arena.h"
 #include "core/clock.h"

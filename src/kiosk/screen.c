@@ -42,6 +42,7 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
         &s->stage.display, s->config.place ? s->config.place->backend : o->display.backend,
         &s->context.screen_opts, gn_loop_now_ns(s->loop), s->warnings, err);
     gn_wake_end(&wake);
+    if (wake.no_cache.text[0]) gn_warn(s->warnings, "%s", wake.no_cache.text);
     if (ok && s->config.place) s->config.place->opened = true;
     return ok;
 }
