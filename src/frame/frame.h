@@ -106,11 +106,10 @@ struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates
                   */
 struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps);
 void gn_frame_destroy(struct gn_frame *frame);
-/* What holds for a light of the scene, once a plan was built: its own options, else those of all
- * lights (but a light that casts no shadow in the scene casts none), else what the scene has. All
- * fields but bias_texels and filter_radius_px, which the technique has, hold a value; the colour is
- * that of the scene at rest. */
-struct gn_light_opts gn_frame_light_opts(const struct gn_frame *frame,
+/* opts.c: what holds for a light once a plan was built: its own options, else those of all lights
+ * (but a light that casts no shadow in the scene casts none), else the scene at this pose. A field
+ * that none of them has is zero, or automatic. */
+struct gn_light_opts gn_frame_light_opts(const struct gn_frame *frame, const struct gn_pose *pose,
                                          const struct gn_frame_opts *opts, uint32_t light);
 /* Builds the plan of this pose. Never fails: what cannot be is left out with a warning, which a
  * builder gives once, and once more when options change. */

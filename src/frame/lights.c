@@ -183,9 +183,6 @@ static void bound_triangles(struct gn_frame *frame, const struct gn_frame_opts *
     }
 }
 
-/* A colour that is set does not follow an animation of the scene's. */
-enum { COLOR_GIVEN = GN_LIGHT_GIVEN(color) | GN_LIGHT_GIVEN(hue) | GN_LIGHT_GIVEN(intensity) };
-
 static bool has_planar_light(const struct gn_frame *frame) {
     for (uint32_t i = 0; i < frame->light_count; i++)
         if (gn_techniques[frame->lights[i].technique].on_plane) return true;
@@ -200,11 +197,9 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     frame->light_count = 0;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
         if (visibility ? (int)i != opts->debug.light : opts->debug.aov != GN_AOV_COLOR) continue;
-        struct gn_frame_light l = {.light = i, .opts = gn_frame_light_opts(frame, opts, i)};
+        struct gn_frame_light l = {.light = i, .opts = gn_frame_light_opts(frame, pose, opts, i)};
         if (!l.opts.on) continue;
         l.technique = technique_of(frame, &l, opts, warnings);
-        if (!(l.opts.given & COLOR_GIVEN))
-            memcpy(l.opts.color, pose->lights[i].color, sizeof l.opts.color);
         l.illuminance = illuminance(pose, i, l.opts.color);
         if (casts_shadow(&l)) choose_encoding(frame, opts, &l, warnings);
         if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */

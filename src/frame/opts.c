@@ -41,11 +41,15 @@ static void set_intensity(float color[3], float intensity, const struct gn_light
     for (int k = 0; k < 3; k++) color[k] = now > 0 ? color[k] * (to / now) : to;
 }
 
-struct gn_light_opts gn_frame_light_opts(const struct gn_frame *frame,
+/* A colour that is set does not follow an animation of the scene's. */
+enum { COLOR_GIVEN = GN_LIGHT_GIVEN(color) | GN_LIGHT_GIVEN(hue) | GN_LIGHT_GIVEN(intensity) };
+
+struct gn_light_opts gn_frame_light_opts(const struct gn_frame *frame, const struct gn_pose *pose,
                                          const struct gn_frame_opts *opts, uint32_t light) {
     const struct gn_light *l = &frame->scene->lights[light];
     const struct gn_light_opts *own = gn_frame_own_opts(opts, light);
     const enum gn_technique technique = frame->notes.lights.at[light].technique;
+    const bool colored = (opts->shadow.any.given | own->given) & COLOR_GIVEN;
     struct gn_light_opts holds = {
         .light = light,
         .technique = technique,
@@ -55,9 +59,9 @@ struct gn_light_opts gn_frame_light_opts(const struct gn_frame *frame,
         .specular = l->shadow_specular,
         .slide_far_m = l->slide_far_m,
         .radius = l->radius,
-        .color = {l->color[0], l->color[1], l->color[2]},
         .on = true,
     };
+    memcpy(holds.color, colored ? l->color : pose->lights[light].color, sizeof holds.color);
     lay_over(&holds, &opts->shadow.any);
     /* a light that casts no shadow in the scene casts none, whatever holds for all */
     if (technique == GN_TECHNIQUE_NONE) holds.technique = technique;

@@ -19,7 +19,7 @@ struct gn_frame_light {
     enum gn_encoding encoding;
     enum gn_moments moments; /* of a technique that filters its map */
     enum gn_slide slide;
-    struct gn_light_opts opts; /* what holds for it; the colour is that of the pose */
+    struct gn_light_opts opts; /* what holds for it */
     float illuminance; /* at the scene's centre, lux; the weakest are dropped over the limit */
     uint32_t cascades; /* 1: one map. Known after gn_frame_fit_shadows() */
 };

@@ -12,10 +12,10 @@
 #define GN_MAP_FORMAT_ENCODING(format)   ((enum gn_encoding)((format)&0xff))
 #define GN_MAP_FORMAT_MOMENTS(format)    ((enum gn_moments)((format) >> 8))
 
-/* A field holds where its bits of `given` are set; zero means that nothing is given. Each field is
- * words of 4 bytes, without padding: they are copied by these bits (frame/opts.c) and hashed. A row
- * of options/rows.h has the offset of its field (`target`). A number below 0 is automatic: it
- * stands for no value, in place of one that holds for all lights. */
+/* A field holds a value where its bits of `given` are set; zero: nothing is given. Fields consist
+ * of words of 4 bytes, without padding: they are copied word by word (frame/opts.c) and hashed. A
+ * row of options/rows.h has the offset of its field (`target`). A number below 0 is automatic: no
+ * value, and none of that for all lights either. */
 struct gn_light_opts {
     uint32_t light; /* index in the scene */
     uint32_t given; /* GN_LIGHT_GIVEN() of each field that is set */
@@ -23,23 +23,21 @@ struct gn_light_opts {
     int map_format; /* GN_MAP_FORMAT() */
     uint32_t map_px;
     uint32_t cascades; /* so many where the light can have them; 0: as few as are enough */
-    int faces;      /* which faces of all casters go into maps: 0: as the scene says of each, else
-                       1 + enum gn_cast_faces. Not of planar lights */
-    uint32_t taps;  /* a multiple of 4 to GN_TAPS_MAX; cone: 8 to 16; 0: 16, cone 12 */
-    float strength; /* as shadow_strength in gn_light */
-    float specular; /* share of highlights that the shadow leaves; automatic: as much as of
-                       the rest */
-    float bias_texels;      /* in place of the technique's */
-    float filter_radius_px; /* of a filter that can have another one; automatic, 0: its own */
-    float slide_far_m;      /* as in gn_light */
-    uint32_t
-        slide_as_picture; /* a slide without a size has the shape of its picture, else square */
-    float radius;         /* as in gn_light */
-    float color[3];       /* as in gn_light. Colours do not change an automatic exposure */
-    int hue;              /* 0xRRGGBB, sRGB: of that colour, which stays as bright as it is;
-                             automatic: the scene's */
-    float intensity;      /* the strongest channel of that colour; automatic: the scene's */
-    uint32_t on;          /* 0: it does not shine */
+    int faces;         /* of all casters, that go into maps: 1 + enum gn_cast_faces; 0: as the scene
+                          has each. Not of planar lights */
+    uint32_t taps;     /* a multiple of 4 to GN_TAPS_MAX; cone: 8 to 16; 0: 16, cone 12 */
+    float strength;    /* as shadow_strength in gn_light */
+    float specular;    /* share of highlights that the shadow leaves; automatic: as of the rest */
+    float bias_texels; /* automatic: the technique's */
+    float filter_radius_px;    /* of a filter that can have another one; automatic, 0: its own */
+    float slide_far_m;         /* as in gn_light; automatic: the scene's */
+    uint32_t slide_as_picture; /* shape of a slide without a size: 1: its picture's, 0: square */
+    float radius;              /* as in gn_light */
+    float color[3];            /* as in gn_light. Colours do not change an automatic exposure */
+    int hue;         /* 0xRRGGBB, sRGB, of that colour, which stays as bright; automatic: the
+                        scene's */
+    float intensity; /* the strongest channel of that colour; automatic: the scene's */
+    uint32_t on;     /* 0: it does not shine */
 };
 
 /* The bits of a field in `given`: one for each of its words. */

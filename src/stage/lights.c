@@ -61,11 +61,11 @@ static bool is_of_made_light(const struct gn_option_row *row) {
 /* A mode, a flag or `ctl set` sets a key of [light] for the made light alone. */
 static bool is_overruled(const struct gn_settings *settings, const struct gn_scene *scene,
                          uint32_t light, const struct gn_option_row *row) {
-    bool is = false;
+    bool overruled = false;
     for (int i = 0; i < GN_OPTION_COUNT; i++)
-        is |= gn_option_rows[i].target == row->target && is_of_made_light(&gn_option_rows[i]) &&
-              settings->source[i] >= GN_SOURCE_MODE;
-    return is && scene->added.light && light + 1 == scene->light_count;
+        overruled |= gn_option_rows[i].target == row->target &&
+                     is_of_made_light(&gn_option_rows[i]) && settings->source[i] >= GN_SOURCE_MODE;
+    return overruled && scene->added.light && light + 1 == scene->light_count;
 }
 
 /* Settings without a light's name: of all lights, or of the made one. */

@@ -1,4 +1,5 @@
-/* [light] and [light "NAME"] of the configuration: what they say of the lights of a scene. */
+/* Settings of the lights of a scene: of all lights, of the made light ([light] of the
+ * configuration) and of one light ([light "NAME"]). */
 #ifndef GN_STAGE_LIGHTS_H
 #define GN_STAGE_LIGHTS_H
 
@@ -18,8 +19,8 @@ void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_sett
  * that it shines as it was made, or as the key of the environment. */
 void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
                   const struct gn_settings *settings);
-/* Before that: the light made for a scene without any is the key of its environment, until settings
- * say otherwise. */
+/* Before that: the light made for a scene without any is the key of its environment, unless
+ * settings change it. */
 void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *scene,
                       const struct gn_environment_key *key, float strength);
 /* After both: whether settings leave the direction and colour of that light. */

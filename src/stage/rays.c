@@ -108,7 +108,8 @@ static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
         const uint32_t light = plan->shadows[rays->slots[i]].light;
         gn_ray_lamp_init(&rays->lamps[i], &stage->pose, light);
         rays->lamps[i].radius =
-            (double)gn_frame_light_opts(stage->frame, &stage->frame_opts, light).radius;
+            (double)gn_frame_light_opts(stage->frame, &stage->pose, &stage->frame_opts, light)
+                .radius;
         rays->seen[i] = gn_picture_alloc(pixels, sizeof *rays->seen[i], err);
         if (!rays->seen[i]) return false;
     }

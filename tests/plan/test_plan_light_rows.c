@@ -19,7 +19,7 @@ static const char *const names[LIGHTS] = {"Sun A", "Sun B", "Spot A", "Spot B"};
 static char path[] = "/tmp/gnomon-light-rows-XXXXXX";
 
 /* A value that is not the default, and the lights that have such a setting. In the scene all have
- * technique disk, and a share of highlights of their own. */
+ * technique disk, a share of highlights and a far plane of slides of their own. */
 static const struct {
     const char *row, *value;
     unsigned lights;
@@ -56,6 +56,7 @@ static void begin(struct gn_plan_fixture *f, struct gn_light lights[LIGHTS], boo
         lights[i].name = names[i];
         lights[i].technique = technique;
         lights[i].shadow_specular = 0.75f;
+        lights[i].slide_far_m = 6.0f;
         if (1 << i & SPOTS) lights[i].slide = 0;
     }
     f->scene->lights = lights;

@@ -11,7 +11,7 @@ static inline struct gn_light_opts gn_light_held(const struct gn_scene *scene,
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     gn_frame_build(frame, &pose, opts, NULL);
-    const struct gn_light_opts held = gn_frame_light_opts(frame, opts, light);
+    const struct gn_light_opts held = gn_frame_light_opts(frame, &pose, opts, light);
     gn_pose_finish(&pose);
     gn_frame_destroy(frame);
     return held;
