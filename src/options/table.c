@@ -15,6 +15,7 @@
 #define DRAW         (KIOSK | BIT(RENDER) | BIT(BENCH))
 #define ANY          ((1u << GN_COMMAND_COUNT) - 1)
 #define FIELD(name)  offsetof(struct gn_settings, name)
+#define LIGHT(name)  offsetof(struct gn_light_opts, name)
 
 static const struct gn_choice backends[] = {{"auto", 0},
 #define X(file, name) {name, 0},

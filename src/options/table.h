@@ -78,6 +78,8 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     enum gn_change change;
     bool of_light; /* a key of [light "NAME"], too */
+    size_t target; /* offset in struct gn_light_opts of the field that a light gets: every light, of
+                      section "light" the made one, or that of [light "NAME"]; 0: none */
     bool reopens;  /* a reload that changes it opens the display again */
     size_t offset; /* of its field in struct gn_settings */
 };
