@@ -66,7 +66,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
 
     /* captions of changes: a text is set only when it changes */
     const char *error = s->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = gn_show_problem(s);
+    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = gn_problem_last(&s->problems);
     char loading[200];
     const bool loads = !error && is_loading(s, now_ns);
     if (loads) {

@@ -21,7 +21,7 @@ bool gn_show_content_turned(const struct gn_show *s) {
 
 void gn_show_follow_content(struct gn_show *s, bool missed) {
     const struct gn_options *o = s->config.options;
-    const struct gn_show_problems *problems = &s->text.problems;
+    const struct gn_problems *problems = &s->problems;
     const bool fails = problems->of[GN_PROBLEM_SCENE][0];
     const struct gn_kiosk_settings *kiosk = &o->settings->kiosk;
     char link[PATH_MAX] = "", text[200];
@@ -40,15 +40,15 @@ void gn_show_follow_content(struct gn_show *s, bool missed) {
     const bool is_open = s->content.watch.fd >= 0;
     if (!kiosk->watch && !link[0]) {
         gn_content_close(&s->content);
-        gn_show_cure_problem(s, GN_PROBLEM_WATCH);
+        gn_problem_cure(&s->problems, GN_PROBLEM_WATCH);
     } else if (is_open || gn_content_open(&s->content, s->loop)) {
         gn_content_follow(&s->content, paths, count, missed && kiosk->watch);
-        gn_show_cure_problem(s, GN_PROBLEM_WATCH);
+        gn_problem_cure(&s->problems, GN_PROBLEM_WATCH);
     } else {
         snprintf(text, sizeof text, "%s: changes of files are not noticed: %s",
                  kiosk->watch ? gn_settings_label(o->settings, kiosk.watch)
                               : gn_settings_label(o->settings, kiosk.content),
                  strerror(errno));
-        gn_show_report_problem(s, GN_PROBLEM_WATCH, text);
+        gn_problem_report(&s->problems, GN_PROBLEM_WATCH, text);
     }
 }

@@ -76,7 +76,7 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     if (s->fade.keeps) { /* this picture is the start of a fade */
         struct gn_err why = {0};
         if (!gn_gl_keep(s->stage.gl, &why)) {
-            gn_show_report_problem(s, GN_PROBLEM_CONFIG, why.text);
+            gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why.text);
             s->rules.fade_ns = 0; /* disables fades */
         }
         s->fade.keeps = false;

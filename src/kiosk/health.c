@@ -19,9 +19,9 @@ static void tell_ailment(struct gn_show *s, enum gn_health_kind kind, bool laste
     if (a->lasts == lasted) return;
     if (a->lasts) {
         snprintf(text, sizeof text, "%s; %s", a->text, gn_health_cures[kind]);
-        gn_show_report_problem(s, problems[kind], text);
+        gn_problem_report(&s->problems, problems[kind], text);
     } else {
-        gn_show_cure_problem(s, problems[kind]);
+        gn_problem_cure(&s->problems, problems[kind]);
         fprintf(stderr, "gnomon: no more: %s\n", gn_health_names[kind]);
     }
 }
@@ -58,5 +58,5 @@ void gn_show_open_health(struct gn_show *s, const char *root, int64_t interval_n
         gn_fail(&err, "cannot wait for the board's health: %s", strerror(errno));
         gn_show_close_health(s);
     }
-    gn_show_report_problem(s, GN_PROBLEM_START, err.text);
+    gn_problem_report(&s->problems, GN_PROBLEM_START, err.text);
 }

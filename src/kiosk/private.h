@@ -13,6 +13,7 @@
 #include "kiosk/info_page.h"
 #include "kiosk/latency.h"
 #include "kiosk/machine.h"
+#include "kiosk/problems.h"
 #include "kiosk/screenshot.h"
 #include "kiosk/sensor.h"
 #include "kiosk/service.h"
@@ -112,28 +113,6 @@ struct gn_show_reload {
     char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
 };
 
-/* What is wrong, one text of each kind: each ends by itself when it is cured. */
-enum gn_problem {
-    GN_PROBLEM_START,      /* of this start, for good */
-    GN_PROBLEM_CONFIG,     /* until a reload succeeds */
-    GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is */
-    GN_PROBLEM_MODE,       /* until that mode is shown, or a reload */
-    GN_PROBLEM_SCENE,      /* likewise */
-    GN_PROBLEM_WATCH,      /* changes of files are not noticed */
-    GN_PROBLEM_SHADERS,    /* of --shaders; until they can be used */
-    GN_PROBLEM_STATE,      /* until it is saved */
-    GN_PROBLEM_TELEVISION, /* until it answers */
-    GN_PROBLEM_RANGE,      /* until a connector has it, or none is asked for */
-    GN_PROBLEM_VOLTAGE,    /* of the board; until it was well for a minute, like the next two */
-    GN_PROBLEM_THROTTLED,
-    GN_PROBLEM_CMA,
-    GN_PROBLEM_COUNT,
-};
-struct gn_show_problems {
-    char of[GN_PROBLEM_COUNT][512]; /* "": none */
-    unsigned begun[GN_PROBLEM_COUNT], count;
-    int mode, scene; /* that cannot be shown */
-};
 /* Texts on the picture. */
 struct gn_show_text {
     struct gn_captions *captions;
@@ -142,8 +121,7 @@ struct gn_show_text {
     char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
-    struct gn_show_problems problems;
-    char modes[120]; /* of the split screen */
+    char modes[120];           /* of the split screen */
 };
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
@@ -227,6 +205,7 @@ struct gn_show {
     struct gn_kiosk_view drawn; /* by the last frame */
     int64_t shifted_minute;     /* of that frame */
     struct gn_show_text text;
+    struct gn_problems problems;
     struct gn_show_ahead ahead;
     struct gn_show_fade fade;
     const struct gn_scene *clips_of; /* whose pose was chosen last: another one's was not seen */
@@ -430,16 +409,12 @@ void gn_show_close_health(struct gn_show *show);
 
 /* truth.c stands here; see truth.h. */
 
-/* ---- events.c: actions as events of the machine; problems ------------------------------------ */
+/* ---- events.c: actions as events of the machine ---------------------------------------------- */
 
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
 /* Whether there is the mode, or in the scene that is shown the clip, that it names. */
 bool gn_show_check_action(const struct gn_show *show, const struct gn_action *action,
                           struct gn_err *err);
-/* A problem that does not end the kiosk: printed once, and in the status until it is cured. */
-void gn_show_report_problem(struct gn_show *show, enum gn_problem kind, const char *text);
-void gn_show_cure_problem(struct gn_show *show, enum gn_problem kind);
-const char *gn_show_problem(const struct gn_show *show); /* the last that is not cured, or NULL */
 /* A caption of the viewer, for 2 s. */
 __attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show *show, const char *format,
                                                         ...);

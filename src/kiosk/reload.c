@@ -50,14 +50,14 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     const bool begun = gn_show_begin(s, err);
     s->kiosk.shown.scene = s->kiosk.wanted.scene = r->scene;
     s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
-    for (int i = GN_PROBLEM_CONFIG; i <= GN_PROBLEM_SCENE; i++) gn_show_cure_problem(s, i);
+    for (int i = GN_PROBLEM_CONFIG; i <= GN_PROBLEM_SCENE; i++) gn_problem_cure(&s->problems, i);
     if (!begun || (!keeps_display && !gn_show_open_display(s, err))) return false;
     gn_show_open_captions(s);
     gn_show_open_shaders(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
-        gn_show_report_problem(s, GN_PROBLEM_CONFIG,
-                               why.text); /* not fatal: the kiosk runs without buttons */
+        gn_problem_report(&s->problems, GN_PROBLEM_CONFIG,
+                          why.text); /* not fatal: the kiosk runs without buttons */
     s->kiosk.blanked = before.blanked;
     s->kiosk.asleep = before.asleep;
     s->kiosk.woken = before.woken;
@@ -96,7 +96,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
         const struct gn_kiosk_event failed = {.kind = GN_KIOSK_NOTE,
                                               .time_ns = gn_loop_now_ns(s->loop),
                                               .caption = GN_KIOSK_CAPTION_PROBLEM};
-        gn_show_report_problem(s, GN_PROBLEM_CONFIG, why->text);
+        gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why->text);
         s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
         s->changed = true;
         return;
@@ -106,7 +106,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     s->changed = true;
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
-    gn_show_report_problem(s, GN_PROBLEM_CONFIG, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, text);
 }
 
 /* ---- the steps ------------------------------------------------------------------------------ */

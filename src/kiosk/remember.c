@@ -147,13 +147,13 @@ static void set_due(struct gn_show_memory *m, int64_t now_ns) {
 static void report_failure(struct gn_show *s, const struct gn_err *err) {
     char text[sizeof err->text + 64];
     snprintf(text, sizeof text, "state: %s (it will not outlast a restart)", err->text);
-    gn_show_report_problem(s, GN_PROBLEM_STATE, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_STATE, text);
 }
 
 static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64_t now_ns) {
     struct gn_show_memory *m = &s->memory;
     if (ok)
-        gn_show_cure_problem(s, GN_PROBLEM_STATE);
+        gn_problem_cure(&s->problems, GN_PROBLEM_STATE);
     else
         report_failure(s, err);
     m->changed |= !ok;

@@ -68,7 +68,7 @@ void gn_show_open_shaders(struct gn_show *s) {
     struct gn_err why = {0};
     gn_shader_files_close(&s->shaders);
     if (!gn_shader_files_open(&s->shaders, s->stage.settings->render.shaders, s->loop, &why))
-        gn_show_report_problem(s, GN_PROBLEM_CONFIG, why.text); /* until a reload */
+        gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why.text); /* until a reload */
 }
 
 void gn_show_renew_shaders(struct gn_show *s) {
@@ -77,10 +77,10 @@ void gn_show_renew_shaders(struct gn_show *s) {
     s->shaders.changed = false;
     s->changed = true;
     if (gn_gl_renew_programs(s->stage.gl, &why)) {
-        gn_show_cure_problem(s, GN_PROBLEM_SHADERS); /* the same problem again is news */
+        gn_problem_cure(&s->problems, GN_PROBLEM_SHADERS); /* the same problem again is news */
         return;
     }
-    gn_show_report_problem(s, GN_PROBLEM_SHADERS, why.text);
+    gn_problem_report(&s->problems, GN_PROBLEM_SHADERS, why.text);
 }
 
 void gn_show_stop_gl(struct gn_show *s) {
@@ -112,14 +112,14 @@ static void tell_range(struct gn_show *s) {
     if (s->context.lacks_range == lacks) return;
     s->context.lacks_range = lacks;
     if (!lacks) {
-        gn_show_cure_problem(s, GN_PROBLEM_RANGE);
+        gn_problem_cure(&s->problems, GN_PROBLEM_RANGE);
         return;
     }
     snprintf(text, sizeof text,
              "[display] range: %.*s has no property \"Broadcast RGB\", its levels stay as the "
              "driver has them; set them in the monitor's menu",
              (int)strcspn(screen->what, " "), screen->what);
-    gn_show_report_problem(s, GN_PROBLEM_RANGE, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_RANGE, text);
 }
 
 bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {

@@ -160,7 +160,8 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
         return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
     if (!gn_show_open_loader(s, err)) return false;
     if (!gn_service_open(&s->service, s->loop, gn_loop_now_ns(s->loop), err)) {
-        gn_show_report_problem(s, GN_PROBLEM_START, err->text); /* the picture is more important */
+        gn_problem_report(&s->problems, GN_PROBLEM_START,
+                          err->text); /* the picture is more important */
         *err = (struct gn_err){0};
     }
     s->config.options = gn_show_read_options(options, NULL, err);

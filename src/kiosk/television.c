@@ -12,16 +12,16 @@ static void take_state(void *user, uint32_t events, int64_t now_ns) {
     (void)now_ns;
     gn_television_read(t->told, &t->state);
     if (t->state.problem[0])
-        gn_show_report_problem(s, GN_PROBLEM_TELEVISION, t->state.problem);
+        gn_problem_report(&s->problems, GN_PROBLEM_TELEVISION, t->state.problem);
     else
-        gn_show_cure_problem(s, GN_PROBLEM_TELEVISION);
+        gn_problem_cure(&s->problems, GN_PROBLEM_TELEVISION);
 }
 
 void gn_show_close_television(struct gn_show *s) {
     struct gn_show_television *t = &s->television;
     gn_loop_remove(&t->watch);
     gn_television_close(t->told);
-    gn_show_cure_problem(s, GN_PROBLEM_TELEVISION);
+    gn_problem_cure(&s->problems, GN_PROBLEM_TELEVISION);
     *t = (struct gn_show_television){.watch.fd = -1};
 }
 
@@ -37,7 +37,7 @@ void gn_show_open_television(struct gn_show *s) {
     if (!is_wanted) return;
     t->told = gn_television_open(&opts, &err);
     if (!t->told) {
-        gn_show_report_problem(s, GN_PROBLEM_TELEVISION, err.text);
+        gn_problem_report(&s->problems, GN_PROBLEM_TELEVISION, err.text);
         return;
     }
     snprintf(t->device, sizeof t->device, "%s", device);
@@ -46,7 +46,7 @@ void gn_show_open_television(struct gn_show *s) {
     if (gn_loop_add(s->loop, &t->watch)) return;
     gn_fail(&err, "cannot wait for the television: %s", strerror(errno));
     gn_show_close_television(s);
-    gn_show_report_problem(s, GN_PROBLEM_TELEVISION, err.text);
+    gn_problem_report(&s->problems, GN_PROBLEM_TELEVISION, err.text);
 }
 
 /* The one that is configured, else the one in use: of "HDMI-A-1 1920x1080@60.00 atomic". False: it

@@ -38,11 +38,12 @@ static void board_is(const struct gn_show *show, bool is_low, int times, int fre
 /* Steps on until the problem is there or not. */
 static void problem_becomes(struct gn_show *show, const char *start) {
     for (int i = 0; i < 60000; i++, usleep(1000)) {
-        const char *problem = gn_show_problem(show);
+        const char *problem = gn_problem_last(&show->problems);
         if (start ? problem && strstr(problem, start) == problem : !problem) return;
         help_show_step(show);
     }
-    fail_msg("the problem is \"%s\"", gn_show_problem(show) ? gn_show_problem(show) : "");
+    fail_msg("the problem is \"%s\"",
+             gn_problem_last(&show->problems) ? gn_problem_last(&show->problems) : "");
 }
 
 /* A kiosk on a Pi 4 whose files are in `root`, and well. */

@@ -127,10 +127,10 @@ static void a_reload_tells_nothing_again(void **state) {
 static void problem_becomes(struct gn_show *show, bool is_there) {
     for (int i = 0; i < 60000; i++, usleep(1000)) {
         help_show_step(show);
-        const char *text = gn_show_problem(show);
+        const char *text = gn_problem_last(&show->problems);
         if ((text && strstr(text, "/dev/")) == is_there) return;
     }
-    fail_msg("the problem is \"%s\"", gn_show_problem(show));
+    fail_msg("the problem is \"%s\"", gn_problem_last(&show->problems));
 }
 
 static void its_problem_is_named_until_it_is_cured(void **state) {
@@ -141,12 +141,13 @@ static void its_problem_is_named_until_it_is_cured(void **state) {
     fake->nacks = -1;
     take_fake(show, fake);
     problem_becomes(show, true);
-    assert_non_null(strstr(gn_show_problem(show), "the television at /dev/cec0 does not answer"));
+    assert_non_null(
+        strstr(gn_problem_last(&show->problems), "the television at /dev/cec0 does not answer"));
     cec_fake_lock();
     fake->nacks = 0;
     cec_fake_unlock();
     problem_becomes(show, false);
-    assert_null(gn_show_problem(show));
+    assert_null(gn_problem_last(&show->problems));
     assert_int_equal(show->television.state.told, GN_TELEVISION_ON);
 
     /* one of something else is not taken away */
@@ -155,7 +156,7 @@ static void its_problem_is_named_until_it_is_cured(void **state) {
     cec_fake_unlock();
     act(show, GN_ACTION_BLANK, GN_TURN_ON, false);
     problem_becomes(show, true);
-    gn_show_report_problem(show, GN_PROBLEM_ACTION, "something else");
+    gn_problem_report(&show->problems, GN_PROBLEM_ACTION, "something else");
     cec_fake_lock();
     fake->nacks = 0;
     cec_fake_unlock();
@@ -164,7 +165,7 @@ static void its_problem_is_named_until_it_is_cured(void **state) {
         help_show_step(show);
         usleep(1000);
     }
-    assert_string_equal(gn_show_problem(show), "something else");
+    assert_string_equal(gn_problem_last(&show->problems), "something else");
     gn_show_close(show);
 }
 

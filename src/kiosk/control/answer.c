@@ -65,7 +65,7 @@ void gn_show_open_control(struct gn_show *s) {
     if (named)
         gn_show_report_error(s, GN_PROBLEM_START, err.text);
     else
-        gn_show_report_problem(s, GN_PROBLEM_START, err.text);
+        gn_problem_report(&s->problems, GN_PROBLEM_START, err.text);
     close_all(s, c);
 }
 

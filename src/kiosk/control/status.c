@@ -160,7 +160,7 @@ json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *stat
     json_object_set_new(reply, "config",
                         json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
                                   gn_json_make_text(o->config_error)));
-    json_object_set_new(reply, "problem", gn_json_make_text(gn_show_problem(s)));
+    json_object_set_new(reply, "problem", gn_json_make_text(gn_problem_last(&s->problems)));
     if (s->memory.path[0]) json_object_set_new(reply, "state", state_json(&s->memory));
     json_object_set_new(reply, "missing",
                         gn_json_make_text(s->stage.scene ? s->stage.scene->missing : NULL));
