@@ -107,7 +107,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
         .screen = &s->stage.display.screen,
         .caps = gn_gl_caps(s->stage.gl),
         .uptime_ns = now_ns - s->counts.begun_ns,
-        .board = s->health.summary,
+        .board = gn_parts_board(&s->parts),
     };
     if (t->help[0] || !view->info) {
         t->page.made = false;

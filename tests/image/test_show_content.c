@@ -107,8 +107,9 @@ static void what_is_refused_is_tried_again_when_it_changes(void **state) {
         help_show_step(show);
     }
     assert_non_null(strstr(gn_problem_last(&show->problems), "captions"));
-    gn_show_follow_content(show, false); /* as another scene does */
-    assert_false(show->content.changed);
+    gn_parts_loaded(&show->parts, GN_PART_LOAD_SCENE);
+    gn_parts_look(&show->parts);
+    assert_null(show->reload.options); /* none has begun */
     assert_string_equal(show->modes.names[show->drawn.mode], "A");
     turn("b");
     until_mode_is(show, "B");
