@@ -369,7 +369,7 @@ static void a_bad_scene_changes_nothing(void **state) {
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     assert_int_equal(show->drawn.scene, 0);
-    assert_non_null(strstr(gn_show_problem(show), "bad.glb"));
+    assert_non_null(strstr(gn_problem_last(&show->problems), "bad.glb"));
     frames(show, 2);
     gn_show_close(show);
     help_remove(folder);
