@@ -18,7 +18,7 @@ static struct gn_uv_record read_transform(struct gn_gltf *g, const struct gn_at 
 /* The set and the transform of its coordinates, as an affine map. */
 static uint64_t read_uv(struct gn_gltf *g, const struct gn_at *at, float *m, bool *transformed) {
     uint64_t uv_set = gn_at_uint(g, at, "texCoord", 0);
-    struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
+    struct gn_at transform = gn_at_object(g, at, "extensions.KHR_texture_transform");
     *transformed = transform.json != NULL;
     if (!transform.json) return uv_set;
     const struct gn_uv_record record = read_transform(g, &transform);
@@ -30,9 +30,9 @@ static uint64_t read_uv(struct gn_gltf *g, const struct gn_at *at, float *m, boo
 static struct gn_at texture_at(struct gn_gltf *g, const struct gn_at *material,
                                enum gn_texture_slot slot, struct gn_at *parent) {
     const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-    if (strncmp(row->key, "extensions.", 11) == 0) return gn_at_extension(g, material, row->key);
+    if (strncmp(row->key, "extensions.", 11) == 0) return gn_at_object(g, material, row->key);
     if (strncmp(row->parent, "extensions.", 11) == 0)
-        *parent = gn_at_extension(g, material, row->parent);
+        *parent = gn_at_object(g, material, row->parent);
     else
         *parent = *row->parent ? gn_at_object(g, material, row->parent) : *material;
     return gn_at_object(g, parent, row->key);
@@ -54,7 +54,7 @@ void gn_gltf_uv_sets(struct gn_gltf *g, int32_t material, uint64_t sets[GN_UV_SE
     if (material < 0 || g->failed) return;
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
     struct gn_at at = gn_at_item(g, &materials, (size_t)material), parent;
-    struct gn_at gloss = gn_at_extension(g, &at, GLOSSINESS);
+    struct gn_at gloss = gn_at_object(g, &at, GLOSSINESS);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT && !g->failed; slot++) {
         struct gn_at texture = gloss.json && slot == GN_TEXTURE_BASE
                                    ? gn_at_object(g, &gloss, "diffuseTexture")
@@ -115,8 +115,8 @@ void gn_material_init(struct gn_material *m) {
 
 /* KHR_materials_ior and KHR_materials_specular: the reflectance of what is no metal. */
 static void read_f0(struct gn_gltf *g, const struct gn_at *at, bool used, struct gn_material *m) {
-    struct gn_at refracts = gn_at_extension(g, at, "extensions.KHR_materials_ior");
-    struct gn_at specular = gn_at_extension(g, at, "extensions.KHR_materials_specular");
+    struct gn_at refracts = gn_at_object(g, at, "extensions.KHR_materials_ior");
+    struct gn_at specular = gn_at_object(g, at, "extensions.KHR_materials_specular");
     float f0 = GN_F0, color[3] = {1, 1, 1};
     if (gn_at_any(&refracts, "ior").json) {
         f0 = gn_f0_of_ior(clamp(gn_at_float(g, &refracts, "ior", 1.5f), 0, 1e4f));
@@ -166,7 +166,7 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
 /* Of a volume the colour alone, once over its thickness
  * at most: where that comes from a texture, and how long the way of the light is, is unknown. */
 static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3]) {
-    struct gn_at volume = gn_at_extension(g, at, "extensions.KHR_materials_volume");
+    struct gn_at volume = gn_at_object(g, at, "extensions.KHR_materials_volume");
     float color[3] = {1, 1, 1};
     const float thickness = gn_at_float(g, &volume, "thicknessFactor", 0);
     const float distance = gn_at_float(g, &volume, "attenuationDistance", INFINITY);
@@ -179,8 +179,8 @@ static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3])
 /* KHR_materials_clearcoat and _transmission. */
 static void read_coat_and_transmission(struct gn_gltf *g, const struct gn_at *at, bool used,
                                        struct gn_material *m) {
-    struct gn_at coat = gn_at_extension(g, at, GN_CLEARCOAT);
-    struct gn_at transmits = gn_at_extension(g, at, GN_TRANSMITS);
+    struct gn_at coat = gn_at_object(g, at, GN_CLEARCOAT);
+    struct gn_at transmits = gn_at_object(g, at, GN_TRANSMITS);
     float tint[3];
     m->coat = clamp(gn_at_float(g, &coat, "clearcoatFactor", 0), 0, 1);
     m->coat_roughness = clamp(gn_at_float(g, &coat, "clearcoatRoughnessFactor", 0), 0, 1);
@@ -207,11 +207,11 @@ static void limit_textures(struct gn_gltf *g, const struct gn_at *at, struct gn_
 /* As a clip changes it. */
 static void fill_record(struct gn_gltf *g, const struct gn_at *at, struct gn_material_record *r) {
     struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
-    struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
-    struct gn_at refracts = gn_at_extension(g, at, "extensions.KHR_materials_ior");
-    struct gn_at specular = gn_at_extension(g, at, "extensions.KHR_materials_specular");
-    struct gn_at coat = gn_at_extension(g, at, GN_CLEARCOAT);
-    struct gn_at transmits = gn_at_extension(g, at, GN_TRANSMITS);
+    struct gn_at strong = gn_at_object(g, at, "extensions.KHR_materials_emissive_strength");
+    struct gn_at refracts = gn_at_object(g, at, "extensions.KHR_materials_ior");
+    struct gn_at specular = gn_at_object(g, at, "extensions.KHR_materials_specular");
+    struct gn_at coat = gn_at_object(g, at, GN_CLEARCOAT);
+    struct gn_at transmits = gn_at_object(g, at, GN_TRANSMITS);
     struct gn_at normal = gn_at_object(g, at, "normalTexture");
     struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
     *r = (struct gn_material_record){.base_color = {1, 1, 1, 1}, .specular_color = {1, 1, 1}};
@@ -232,7 +232,7 @@ static void fill_record(struct gn_gltf *g, const struct gn_at *at, struct gn_mat
     read_tint(g, at, r->tint);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         struct gn_at parent, texture = texture_at(g, at, slot, &parent);
-        struct gn_at transform = gn_at_extension(g, &texture, "extensions.KHR_texture_transform");
+        struct gn_at transform = gn_at_object(g, &texture, "extensions.KHR_texture_transform");
         r->uv[slot] = read_transform(g, &transform);
     }
 }
@@ -253,7 +253,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
     gn_material_init(m);
     m->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
-    m->unlit = gn_at_extension(g, at, "extensions.KHR_materials_unlit").json != NULL;
+    m->unlit = gn_at_object(g, at, "extensions.KHR_materials_unlit").json != NULL;
     init_moves(g, at, index, m);
     const char *alpha = gn_at_text(g, at, "alphaMode");
     struct gn_at alpha_at = gn_at_any(at, "alphaMode");
@@ -269,7 +269,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
     gn_at_floats(g, &pbr, "baseColorFactor", 4, m->base_color);
     m->roughness = clamp(gn_at_float(g, &pbr, "roughnessFactor", 1), 0, 1);
     m->metalness = clamp(gn_at_float(g, &pbr, "metallicFactor", 1), 0, 1);
-    struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
+    struct gn_at strong = gn_at_object(g, at, "extensions.KHR_materials_emissive_strength");
     float strength = gn_at_float(g, &strong, "emissiveStrength", 1);
     gn_at_floats(g, at, "emissiveFactor", 3, m->emissive);
     gn_emissive_make(m->emissive, strength, m->emissive);
@@ -284,14 +284,14 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
                               !gn_material_reads(m, slot);
         read_texture(g, &texture, used && !needless, sets, kind_of(slot), &m->textures[slot]);
     }
-    struct gn_at gloss = gn_at_extension(g, at, GLOSSINESS);
+    struct gn_at gloss = gn_at_object(g, at, GLOSSINESS);
     if (gloss.json)
         read_glossiness(g, &gloss, used, sets, m);
     else
         read_f0(g, at, used, m);
     for (int k = 0; k < 4; k++) m->base_color[k] = clamp(m->base_color[k], 0, k < 3 ? 1e4f : 1);
     if (used) gn_missing_of_material(g, at);
-    struct gn_at baked = gn_at_extension(g, at, "extensions.MOZ_lightmap");
+    struct gn_at baked = gn_at_object(g, at, "extensions.MOZ_lightmap");
     m->lightmap_intensity = clamp(gn_at_float(g, &baked, "intensity", 1), 0, 1e9f);
     if (used) gn_extras_material(g, at, find_uv_set(sets, 1), m);
     limit_textures(g, at, m);
@@ -313,7 +313,7 @@ int32_t gn_gltf_tangents(struct gn_gltf *g, int32_t material) {
     float m[6];
     bool transformed = false;
     struct gn_at above[3], at = normal_texture(g, above, material);
-    if (!at.json || gn_at_extension(g, &above[2], "extensions.KHR_materials_unlit").json)
+    if (!at.json || gn_at_object(g, &above[2], "extensions.KHR_materials_unlit").json)
         return GN_TANGENTS_NONE;
     uint64_t sets[GN_UV_SETS];
     gn_gltf_uv_sets(g, material, sets);
