@@ -25,7 +25,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make accept     what check leaves out: long tests, machines, GPUs, lint of all
 #: make full       the longest forms of all that, hours: once before a release
 #: make check-NAME what accept runs of a folder of tests, of a configuration or of one test (tests/table): check-angle,
-#:                 check-board, check-arm64, check-gpiod2, check-kms, check-smoke.guest; with GN_FULL=1 what full runs of it
+#:                 check-board, check-arm64, check-gpiod2, check-kms, check-test_cone; with GN_FULL=1 what full runs of it
 #: make check-service
 #:                 the packages as a service, in a machine with systemd; check-deb: the packages themselves
 #: make check-gpus every program on the compilers of GPUs that are not here, and its cost
@@ -67,7 +67,7 @@ dist:
 	git -c tar.umask=0022 archive --format=tar --prefix=gnomon-$(VERSION)/ HEAD | gzip -9n > $(DIST)
 
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
-MACHINES    := check-board check-arm64 check-gpiod2 check-service check-smoke.guest accept full
+MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
 TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-tangents,$(filter check check-% accept full,$(GOALS)))
 IN_test     := $(TABLED) check-modelviewer check-tangents truth benchmark benchmark-scenes gallery contact-sheet book readme
 IN_board    := $(MACHINES)
@@ -186,8 +186,11 @@ KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 COMPLETION := $(addprefix $(O)/completion/gnomon.,bash zsh fish)
 
 all: $(BIN) $(IMPORT) $(SCENES) man completion $(O)/gnomon.svg
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/touchscreen $(B)/tests/television $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(O)/host/make_book \
-       $(if $(ASSIMP),$(B)/tests/hostile_assimp.so)
+# what tests use: the sanitizers look at none of it but a library that gnomon-import loads
+HELPERS := $(if $(ASSIMP),$(B)/tests/hostile_assimp.so) $(if $(filter asan,$(CONFIG)),,$(filter %/tool_%,$(PROGS)) $(O)/host/make_truth $(O)/host/make_book \
+           $(addprefix $(B)/tests/,test_penumbra firstflip.so keyboard touchscreen television angle/libEGL.so.1))
+programs: $(BIN) $(IMPORT) $(SCENES) $(HELPERS) $(PROGRAMS)
+tests: programs $(PROGS)
 man: $(O)/gnomon.1 $(O)/gnomon.ini.5
 completion: $(COMPLETION)
 
@@ -309,7 +312,7 @@ $(O)/gnomon.svg: board/desktop/icon.sh
 BOARD_NEEDS := $(addprefix $(B)/,gnomon tests/firstflip.so tests/keyboard tests/touchscreen tests/television)
 GPUS_NEEDS  := $(addprefix $(B)/,gnomon tests/tool_gpus tests/ident.so)
 GPIOD2_NEEDS := $(BOARD_NEEDS) $(addprefix $(B)/tests/,test_gpio test_lines test_input test_gesture test_replay test_doctor_input)
-build_release = $(SUB) WERROR=1 CONFIG=release all tests
+build_release = $(SUB) WERROR=1 CONFIG=release PROGRAMS='$(filter $(O)/release/tests/%,$(RUNS))' all programs
 build_asan    = $(SUB) WERROR=1 CONFIG=asan PROGRAMS='$(filter $(O)/asan/tests/%,$(RUNS))' programs
 build_service = $(build_release) && $(SUB) deb
 for_arm64     = { ! command -v aarch64-linux-gnu-gcc > /dev/null || ! root=$$($(1) tests/board/sysroot.sh arm64) || \
@@ -317,7 +320,6 @@ for_arm64     = { ! command -v aarch64-linux-gnu-gcc > /dev/null || ! root=$$($(
 build_arm64   = $(call for_arm64,,needs-board)
 build_gpus    = $(call for_arm64,FOR=gpus,WERROR=1 CONFIG=debug needs-gpus)
 build_gpiod2  = { ! root=$$(SUITE=trixie tests/board/sysroot.sh) || $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root needs-gpiod2; }
-programs: $(BIN) $(IMPORT) $(SCENES) $(if $(ASSIMP),$(B)/tests/hostile_assimp.so) $(PROGRAMS)
 needs-board: $(BOARD_NEEDS)
 needs-gpus: $(GPUS_NEEDS)
 needs-gpiod2: $(GPIOD2_NEEDS)
