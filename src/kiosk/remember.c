@@ -85,7 +85,7 @@ void gn_show_recall(struct gn_show *s) {
     struct gn_err err = {0};
     if (strcmp(path, "no") == 0) return;
     snprintf(m->path, sizeof m->path, "%s", path);
-    if (gn_state_read(&gn_state_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
+    if (gn_state_read(&gn_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
         gn_warn(s->warnings, "state: %s; starting as configured", err.text);
     memcpy(m->good[0], m->state.scene, PATH_MAX);
     memcpy(m->good[1], m->state.past, PATH_MAX);
@@ -183,7 +183,7 @@ static void open_memory(struct gn_show *s) {
     struct gn_show_memory *m = &s->memory;
     struct gn_err err = {0};
     if (!m->path[0]) return;
-    m->keeper = gn_keeper_create(&gn_state_disk, m->path, m->older, &err);
+    m->keeper = gn_keeper_create(&gn_disk, m->path, m->older, &err);
     m->done = (struct gn_watch){.fd = m->keeper ? gn_keeper_fd(m->keeper) : -1,
                                 .events = EPOLLIN,
                                 .call = take_save,

@@ -188,7 +188,7 @@ GN_OPTION(.name = "screenshots", .section = "kiosk", .kind = GN_KIND_PATH, .valu
 GN_OPTION(.name = "watch", .section = "kiosk", .kind = GN_KIND_FLAG,
           .help = "show the scene and this file again when they change, once they are written to the end; what is wrong with them changes nothing but the status", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.watch))
 GN_OPTION(.name = "state", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "FILE|no", .fallback = "no",
-          .help = "file that mode, scene and counters outlast a restart in; beside it there are FILE.2 and FILE.new. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
+          .help = "file that mode, scene and counters outlast a restart in; beside it there is FILE.2. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
 GN_OPTION(.name = "content", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "DIR|no", .fallback = "no",
           .help = "folder in which gnomon take keeps what USB sticks bring; its kiosk.ini, or its scene, is laid over this file. A service has /var/lib/gnomon/content", .commands = KIOSK | BIT(TAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.content))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
