@@ -73,10 +73,10 @@ static void test_glass_plan(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     for (uint32_t i = 0; i < f.scene->material_count; i++) {
         struct gn_material *m = &f.scene->materials[i];
-        if (strcmp(m->name, "blue") == 0) m->coat = 1.0f;
+        if (strcmp(m->name, "blue") == 0) m->factors[GN_FACTOR_COAT] = 1.0f;
         if (m->alpha != GN_ALPHA_BLEND) continue;
         m->alpha = GN_ALPHA_OPAQUE;
-        m->transmission = 0.9f;
+        m->factors[GN_FACTOR_TRANSMISSION] = 0.9f;
         m->double_sided = true;
         glm_vec3_copy((vec3){1, 0.5f, 0.2f}, m->base_color);
         m->textures[GN_TEXTURE_BASE].texture = -1;

@@ -121,20 +121,21 @@ static void test_clear_coat(void **state) {
                                  "'clearcoatRoughnessFactor':0.25}"));
     const struct gn_material *m = &scene->materials[0];
     assert_int_equal(warnings.count, 0);
-    assert_near(m->coat, .75f);
-    assert_near(m->coat_roughness, .25f);
-    assert_true(gn_material_is_coated(m) && gn_material_is_specular(m));
+    assert_near(m->factors[GN_FACTOR_COAT], .75f);
+    assert_near(m->factors[GN_FACTOR_COAT_ROUGHNESS], .25f);
+    assert_true(gn_material_has(m, GN_LAYER_COAT) && gn_material_is_specular(m));
     assert_true(gn_material_needs_reflections(m));
     assert_false(gn_material_is_blended(m));
     gn_scene_destroy(scene);
     scene = load_material(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatFactor':7,"
                                      "'clearcoatRoughnessFactor':-1e30}"));
-    assert_near(scene->materials[0].coat, 1);
-    assert_near(scene->materials[0].coat_roughness, 0);
+    assert_near(scene->materials[0].factors[GN_FACTOR_COAT], 1);
+    assert_near(scene->materials[0].factors[GN_FACTOR_COAT_ROUGHNESS], 0);
     gn_scene_destroy(scene);
     scene = load_material(
         "'pbrMetallicRoughness':{'metallicFactor':0}," EXTENSIONS("'KHR_materials_clearcoat':{}"));
-    assert_false(gn_material_is_coated(&scene->materials[0])); /* 0 where nothing is said */
+    assert_false(
+        gn_material_has(&scene->materials[0], GN_LAYER_COAT)); /* 0 where nothing is said */
     assert_false(gn_material_needs_reflections(&scene->materials[0]));
     gn_scene_destroy(scene);
 }
@@ -146,7 +147,7 @@ static void test_transmission(void **state) {
     struct gn_scene *scene = load_material(EXTENSIONS(GLASS("0.8")));
     const struct gn_material *m = &scene->materials[0];
     assert_int_equal(warnings.count, 0);
-    assert_near(m->transmission, .8f);
+    assert_near(m->factors[GN_FACTOR_TRANSMISSION], .8f);
     assert_int_equal(m->alpha, GN_ALPHA_OPAQUE);
     assert_true(gn_material_is_blended(m) && gn_material_is_clear(m));
     assert_false(gn_material_is_tinted(m) || gn_material_has_opaque_texels(m));
@@ -163,7 +164,7 @@ static void test_transmission(void **state) {
     scene = load_material(EXTENSIONS(GLASS("1") ",'KHR_materials_unlit':{},"
                                                 "'KHR_materials_clearcoat':{'clearcoatFactor':1}"));
     m = &scene->materials[0];
-    assert_false(gn_material_is_transmissive(m) || gn_material_is_coated(m));
+    assert_false(gn_material_is_transmissive(m) || gn_material_has(m, GN_LAYER_COAT));
     gn_scene_destroy(scene);
 }
 
