@@ -10,7 +10,7 @@ const struct gn_feature_row gn_features[GN_FEATURE_COUNT] = {
 #define GN_X(NAME, name, ...) {GN_BIT_VERTEX_##NAME, "VERTEX_" #NAME, "vertex-" #name},
             GN_FEATURE_ATTRIBUTES(GN_X)
 #undef GN_X
-#define GN_X(NAME, printed) {GN_BIT_##NAME, #NAME, printed},
+#define GN_X(NAME, printed, ...) {GN_BIT_##NAME, #NAME, printed},
                 GN_FEATURES(GN_X)
 #undef GN_X
 };

@@ -1,7 +1,7 @@
 /* Features of a program: one row each. A row is a bit of gn_program_key.features, a `const bool`
  * and, where it is set, a WITH_ macro of that name in GLSL, and a word where keys are printed.
- * Textures (scene/material.h) and vertex attributes (scene/attribute.h) bring theirs along; each
- * kind has a range of bits of its own, so that a new row renumbers no other. */
+ * Layers and textures (scene/material.h) and vertex attributes (scene/attribute.h) bring theirs
+ * along; textures and attributes have a range of bits each. */
 #ifndef GN_FRAME_FEATURE_H
 #define GN_FRAME_FEATURE_H
 
@@ -10,7 +10,8 @@
 #include "scene/attribute.h"
 #include "scene/material.h"
 
-/* X(NAME, printed name): what is no texture and no attribute. */
+/* X(NAME, printed name, ..): what is no texture and no attribute. TRANSMISSION of LIT with UNLIT:
+ * its tint alone; of ENCODE: there is such. */
 #define GN_FEATURES(X)                                                                             \
     X(ALPHA_MASK, "mask")                                                                          \
     X(ALPHA_BLEND, "blend")                                                                        \
@@ -40,9 +41,7 @@
     X(ENVIRONMENT_DIFFUSE, "environment-diffuse") /* in place of the hemispheres */                \
     X(ENVIRONMENT_SCALED, "environment-scaled")   /* by a factor other than 1 */                   \
     X(ENVIRONMENT_TURNED, "environment-turned")                                                    \
-    X(COAT, "coat")                 /* a clear coat over the rest */                               \
-    X(TRANSMISSION, "transmission") /* shows what is behind. LIT with UNLIT: its tint alone;       \
-                                       ENCODE: there is such */                                    \
+    GN_LAYERS(X, GN_LEAVE_OUT, GN_LEAVE_OUT)                                                       \
     X(TINTED, "tinted") /* LIT: in colour, which a draw before has multiplied in; this one adds */ \
     X(ENVIRONMENT_KEY, "environment-key") /* smooth surfaces reflect it with its key light */      \
     X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */        \

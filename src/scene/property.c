@@ -26,6 +26,17 @@ const struct gn_property gn_material_properties[GN_MATERIAL_PROPERTY_COUNT] = {
      most},
     GN_MATERIAL_PROPERTIES(GN_X)
 #undef GN_X
+#define GN_X(LAYER, NAME, first, components, path, fallback, least, most)                          \
+    {GN_THING_MATERIAL,                                                                            \
+     path,                                                                                         \
+     FLOATS(material, factors[GN_FACTOR_##NAME]),                                                  \
+     components,                                                                                   \
+     GN_MOVES_##LAYER,                                                                             \
+     fallback,                                                                                     \
+     least,                                                                                        \
+     most},
+        GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+#undef GN_X
 };
 
 static float clamp(float x, float least, float most) { return fminf(fmaxf(x, least), most); }
@@ -35,8 +46,7 @@ static float clamp(float x, float least, float most) { return fminf(fmaxf(x, lea
 /* The rest of the pointer behind a path, whose dots are slashes; NULL: it has another one, or there
  * is none. */
 static const char *behind(const char *pointer, const char *path) {
-    if (!pointer || *path == '\0') return pointer;
-    if (*pointer++ != '/') return NULL;
+    if (!pointer || *pointer++ != '/') return NULL;
     for (; *path; path++, pointer++)
         if (*pointer != (*path == '.' ? '/' : *path)) return NULL;
     return pointer;
@@ -50,8 +60,7 @@ static bool find_transform(const char *pointer, struct gn_property *out) {
     };
     for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-        const char *rest = behind(pointer, row->parent);
-        rest = behind(behind(rest, row->key), "extensions.KHR_texture_transform");
+        const char *rest = behind(behind(pointer, row->path), "extensions.KHR_texture_transform");
         for (size_t i = 0; rest && i < sizeof parts / sizeof *parts; i++) {
             const char *end = behind(rest, parts[i].path);
             if (!end || *end) continue;
@@ -166,18 +175,16 @@ void gn_material_make(const struct gn_material_record *record, uint32_t moves,
     if (moves & GN_MOVES_CUTOFF) m->alpha_cutoff = r.alpha_cutoff;
     if (moves & GN_MOVES_NORMAL) m->normal_scale = r.normal_scale;
     if (moves & GN_MOVES_OCCLUSION) m->occlusion_strength = r.occlusion_strength;
-    if (moves & GN_MOVES_COAT) {
-        m->coat = r.coat;
-        m->coat_roughness = r.coat_roughness;
-    }
-    if (moves & GN_MOVES_TRANSMISSION) m->transmission = r.transmission;
+    for (int i = 0; i < GN_FACTORS_SIZE; i++)
+        if (moves & GN_MOVES_FIRST_LAYER << i / 4) m->factors[i] = r.factors[i];
     for (int k = 0; k < 3; k++) {
         if (moves & GN_MOVES_EMISSIVE)
             m->emissive[k] = fminf(r.emissive[k] * r.emissive_strength, 1e9f);
         if (moves & GN_MOVES_F0)
             m->f0[k] = fminf(f0_of_ior(r.ior) * r.specular_color[k], 1) * r.specular;
         if (moves & (GN_MOVES_BASE | GN_MOVES_TRANSMISSION))
-            m->base_color[k] = r.base_color[k] * glm_lerp(1, r.tint[k], m->transmission);
+            m->base_color[k] =
+                r.base_color[k] * glm_lerp(1, r.tint[k], m->factors[GN_FACTOR_TRANSMISSION]);
     }
     if (moves & GN_MOVES_BASE) m->base_color[3] = fminf(r.base_color[3], 1);
     for (int slot = 0; moves & GN_MOVES_UV && slot < GN_TEXTURE_SLOT_COUNT; slot++)

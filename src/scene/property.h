@@ -24,8 +24,8 @@ struct gn_material_record {
     float emissive[3], emissive_strength;
     float alpha_cutoff, normal_scale, occlusion_strength;
     float ior, specular, specular_color[3];
-    float coat, coat_roughness, transmission;
-    float tint[3]; /* of the volume: of what is transmitted; no property */
+    float factors[GN_FACTORS_SIZE]; /* of layers */
+    float tint[3];                  /* of the volume: of what is transmitted; no property */
     struct gn_uv_record uv[GN_TEXTURE_SLOT_COUNT];
 };
 struct gn_node_record {
@@ -49,8 +49,8 @@ struct gn_node_record {
     X(CAMERA, "orthographic.zfar", camera, far_m, 1, 1e-6f, 1e18f)                                 \
     X(NODE, "extensions.KHR_node_visibility.visible", node, visible, 1, 0, 1e18f)
 
-/* Of materials, which are also loaded by this table: X(path in its JSON, field of the record,
- * components, bit of gn_material.moves, default, least, most) */
+/* Of materials, which are also loaded by this table, beside the factors of layers: X(path in its
+ * JSON, field of the record, components, bit of gn_material.moves, default, least, most) */
 #define GN_MATERIAL_PROPERTIES(X)                                                                  \
     X("pbrMetallicRoughness.baseColorFactor", base_color, 4, BASE, 1, 0, 1e4f)                     \
     X("pbrMetallicRoughness.metallicFactor", metalness, 1, METAL, 1, 0, 1)                         \
@@ -63,10 +63,7 @@ struct gn_node_record {
     X("occlusionTexture.strength", occlusion_strength, 1, OCCLUSION, 1, 0, 1)                      \
     X("extensions.KHR_materials_ior.ior", ior, 1, F0, 1.5f, 0, 1e4f)                               \
     X("extensions.KHR_materials_specular.specularFactor", specular, 1, F0, 1, 0, 1)                \
-    X("extensions.KHR_materials_specular.specularColorFactor", specular_color, 3, F0, 1, 0, 1e4f)  \
-    X(GN_CLEARCOAT ".clearcoatFactor", coat, 1, COAT, 0, 0, 1)                                     \
-    X(GN_CLEARCOAT ".clearcoatRoughnessFactor", coat_roughness, 1, COAT, 0, 0, 1)                  \
-    X(GN_TRANSMITS ".transmissionFactor", transmission, 1, TRANSMISSION, 0, 0, 1)
+    X("extensions.KHR_materials_specular.specularColorFactor", specular_color, 3, F0, 1, 0, 1e4f)
 
 struct gn_property {
     enum gn_thing thing;
@@ -80,7 +77,10 @@ enum {
 #define GN_X(path, field, ...) GN_PROPERTY_##field,
     GN_MATERIAL_PROPERTIES(GN_X)
 #undef GN_X
-        GN_MATERIAL_PROPERTY_COUNT,
+#define GN_X(LAYER, NAME, ...) GN_PROPERTY_##NAME,
+        GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+#undef GN_X
+            GN_MATERIAL_PROPERTY_COUNT,
 };
 extern const struct gn_property gn_material_properties[GN_MATERIAL_PROPERTY_COUNT];
 

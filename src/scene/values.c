@@ -156,7 +156,7 @@ uint64_t gn_values_hash(const struct gn_pose *pose, const struct gn_item *item, 
     if (!has_cut(m)) return hash;
     hash = gn_hash(hash, m->base_color, sizeof m->base_color);
     hash = gn_hash(hash, &m->alpha_cutoff, sizeof m->alpha_cutoff);
-    hash = gn_hash(hash, &m->transmission, sizeof m->transmission);
+    hash = gn_hash(hash, &m->factors[GN_FACTOR_TRANSMISSION], sizeof(float));
     hash = gn_hash(hash, &m->metalness, sizeof m->metalness);
     static const int slots[] = {GN_TEXTURE_BASE, GN_TEXTURE_TRANSMISSION};
     for (int i = 0; i < 2; i++)

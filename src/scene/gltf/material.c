@@ -26,18 +26,6 @@ static uint64_t read_uv(struct gn_gltf *g, const struct gn_at *at, float *m, boo
     return gn_at_uint(g, &transform, "texCoord", uv_set);
 }
 
-/* The texture of a slot in the JSON of a material. */
-static struct gn_at texture_at(struct gn_gltf *g, const struct gn_at *material,
-                               enum gn_texture_slot slot, struct gn_at *parent) {
-    const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-    if (strncmp(row->key, "extensions.", 11) == 0) return gn_at_object(g, material, row->key);
-    if (strncmp(row->parent, "extensions.", 11) == 0)
-        *parent = gn_at_object(g, material, row->parent);
-    else
-        *parent = *row->parent ? gn_at_object(g, material, row->parent) : *material;
-    return gn_at_object(g, parent, row->key);
-}
-
 static int find_uv_set(const uint64_t sets[GN_UV_SETS], uint64_t set) {
     for (int i = 0; i < GN_UV_SETS; i++)
         if (sets[i] == set) return i;
@@ -53,12 +41,12 @@ void gn_gltf_uv_sets(struct gn_gltf *g, int32_t material, uint64_t sets[GN_UV_SE
     sets[1] = 1;
     if (material < 0 || g->failed) return;
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
-    struct gn_at at = gn_at_item(g, &materials, (size_t)material), parent;
+    struct gn_at at = gn_at_item(g, &materials, (size_t)material);
     struct gn_at gloss = gn_at_object(g, &at, GLOSSINESS);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT && !g->failed; slot++) {
-        struct gn_at texture = gloss.json && slot == GN_TEXTURE_BASE
-                                   ? gn_at_object(g, &gloss, "diffuseTexture")
-                                   : texture_at(g, &at, slot, &parent);
+        const bool diffuse = gloss.json && slot == GN_TEXTURE_BASE;
+        struct gn_at texture = gn_at_object(
+            g, diffuse ? &gloss : &at, diffuse ? "diffuseTexture" : gn_texture_slots[slot].path);
         if (!texture.json) continue;
         const uint64_t set = read_uv(g, &texture, m, &transformed);
         bool known = false;
@@ -166,8 +154,9 @@ static void limit_textures(struct gn_gltf *g, const struct gn_at *at, struct gn_
     int count = 0;
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         if (m->textures[slot].texture < 0 || ++count <= GN_MATERIAL_TEXTURES_MAX) continue;
+        const char *path = gn_texture_slots[slot].path, *dot = strrchr(path, '.');
         gn_gltf_warn(g, at, "more than %d textures; shown without the %s", GN_MATERIAL_TEXTURES_MAX,
-                     gn_texture_slots[slot].key);
+                     dot ? dot + 1 : path);
         m->textures[slot].texture = -1;
     }
 }
@@ -196,18 +185,19 @@ static void read_properties(struct gn_gltf *g, const struct gn_at *at, size_t in
     read_record(g, at, r, &thickness);
     m->moves = g->to_scene.moves[index];
     if (m->unlit) {
-        m->moves &= ~(uint32_t)(GN_MOVES_COAT | GN_MOVES_TRANSMISSION);
-        r->coat = r->transmission = 0;
+        m->moves &= ~(uint32_t)GN_MOVES_LAYERS;
+        memset(r->factors, 0, sizeof r->factors);
     }
     gn_material_make(r, ~(uint32_t)GN_MOVES_UV, m);
     for (int slot = 0; m->record && slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        struct gn_at parent, texture = texture_at(g, at, slot, &parent);
+        struct gn_at texture = gn_at_object(g, at, gn_texture_slots[slot].path);
         struct gn_at transform = gn_at_object(g, &texture, "extensions.KHR_texture_transform");
         r->uv[slot] = read_transform(g, &transform);
     }
     struct gn_at coat = gn_at_object(g, at, GN_CLEARCOAT);
-    if (used && m->transmission > 0 && thickness > 0) g->is_missing[GN_MISSING_VOLUME] = true;
-    if (used && m->coat > 0 && gn_at_any(&coat, "clearcoatNormalTexture").json)
+    if (used && m->factors[GN_FACTOR_TRANSMISSION] > 0 && thickness > 0)
+        g->is_missing[GN_MISSING_VOLUME] = true;
+    if (used && m->factors[GN_FACTOR_COAT] > 0 && gn_at_any(&coat, "clearcoatNormalTexture").json)
         g->is_missing[GN_MISSING_COAT_NORMALS] = true;
 }
 
@@ -229,10 +219,9 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
                      alpha);
     read_properties(g, at, index, used, m);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        struct gn_at parent, texture = texture_at(g, at, slot, &parent);
-        const bool needless = (slot == GN_TEXTURE_TRANSMISSION || slot == GN_TEXTURE_COAT ||
-                               slot == GN_TEXTURE_COAT_ROUGHNESS) &&
-                              !gn_material_reads(m, slot);
+        struct gn_at texture = gn_at_object(g, at, gn_texture_slots[slot].path);
+        const bool needless =
+            gn_texture_slots[slot].shading >= GN_SHADING_LAYERS && !gn_material_reads(m, slot);
         read_texture(g, &texture, used && !needless, sets, kind_of(slot), &m->textures[slot]);
     }
     struct gn_at gloss = gn_at_object(g, at, GLOSSINESS);
