@@ -29,24 +29,25 @@ settings() { # CONFIGURATION
 
 # A test's row is the first that names it. Lines "RUN TEST", where RUN is a configuration and its forms.
 runs() {
-    local row test path run runs
+    local row test own path run runs
     declare -A seen=()
     while read -ra row; do
         case ${row[0]:-#} in '#'*) continue ;; esac
         set +f
         for path in tests/${row[0]} tests/${row[0]}.c; do
             [ -e "$path" ] || continue
-            test=${path#tests/} test=${test%.c}
+            test=${path#tests/} test=${test%.c} own=${test##*/} own=${own%.*}
             runs=${row[column - 1]}
             [ "$runs${name:+.}" != -. ] || runs=${row[1]}
             [ -z "${seen[$test]:-}" ] || runs=-
             seen[$test]=1
             for run in ${runs//\// }; do
-                case " ${test%/*} ${run%%+*} ${test##*/} " in *" ${name:-${run%%+*}} "*) ;; *) run=- ;; esac
+                case " ${test%/*} ${run%%+*} $own " in *" ${name:-${run%%+*}} "*) ;; *) run=- ;; esac
                 [ "$run" = - ] || echo "$run $test"
             done
         done
         set -f
+        # shellcheck disable=SC2053
         for test in "${!seen[@]}"; do [[ $test != ${row[0]} ]] || continue 2; done
         echo "tests/table: there is no test ${row[0]}" >&2 && return 2
     done < tests/table

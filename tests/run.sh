@@ -161,7 +161,7 @@ start() {
 }
 
 if [ -n "${DRY:-}" ]; then
-    plan | while read -r when limit count program known; do
+    plan | while read -r when limit count program _; do
         echo "$when $limit s" "$(printf '%s\n' "${settings[@]:0:$count}" | tac | sort -u -t = -k 1,1 | grep -v '=$' | tr '\n' ' ')$program"
     done
     exit
