@@ -250,7 +250,7 @@ bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings
     struct gn_options again;
     if (gn_args_parse(&again, options->argc, options->argv, NULL, err)) {
         gn_options_run_as(&again, GN_COMMAND_RENDER); /* a missing camera or clip is an error */
-        note(&c, gn_stage_limits(again.settings, &c.limits, err), err);
+        c.limits = gn_stage_limits(again.settings);
         for (int i = 0; i <= again.mode_count; i++) {
             const struct gn_settings *settings = i ? &again.all[i] : again.settings;
             check_names(&c, settings, err);
