@@ -31,7 +31,6 @@ struct gn_limits {
     struct gn_limit items[GN_LIMITS_MAX]; /* as they were given */
     struct gn_scene_limits all;           /* what they make */
 };
-#define GN_SCENES_MAX   16
 /* What the path of a lesson's scene inside the program begins with: "lesson:solids". */
 #define GN_SCENE_LESSON "lesson:"
 struct gn_scene_list {

@@ -7,24 +7,38 @@
 #include <stddef.h>
 
 enum gn_command {
-    GN_COMMAND_AUTO, /* bare `gnomon [SCENE]` */
-    GN_COMMAND_SHOW,
-    GN_COMMAND_RENDER,
-    GN_COMMAND_BENCH,
-    GN_COMMAND_INSPECT,
-    GN_COMMAND_DOCTOR,
-    GN_COMMAND_CTL,
-    GN_COMMAND_COMPARE,
-    GN_COMMAND_SCORE,
-    GN_COMMAND_LESSON,
-    GN_COMMAND_BAKE,
-    GN_COMMAND_TAKE,
+#define GN_COMMAND(ID, ...) GN_COMMAND_##ID,
+#include "options/command_rows.h"
+#undef GN_COMMAND
     GN_COMMAND_COUNT,
+};
+#define GN_SCENES_MAX 16
+enum { GN_WORDS_MAX = GN_SCENES_MAX, GN_COMMAND_EXAMPLES = 2 };
+enum gn_words {                   /* what follows a command */
+                GN_WORDS_SCENES,  /* of --scene; else they are the options' words: */
+                GN_WORDS_FILES,   /* other files */
+                GN_WORDS_REQUEST, /* a command of ctl, and its words, also numbers below 0 */
+                GN_WORDS_LESSON,  /* a lesson, list or all */
+};
+enum gn_command_config {                     /* the configuration file, beside that of -c FILE */
+                         GN_CONFIG_ASKED,    /* none */
+                         GN_CONFIG_FOUND,    /* the first of gn_config_find(); bad: it fails */
+                         GN_CONFIG_KIOSK,    /* likewise; bad: runs with the defaults and warns */
+                         GN_CONFIG_OPTIONAL, /* likewise; bad: does without it */
+                         GN_CONFIG_LESSON,   /* what the lesson sets, in place of any file */
 };
 struct gn_command_row {
     const char *name;  /* NULL for the bare command */
     const char *usage; /* what follows `gnomon` */
     const char *what;  /* a sentence */
+    const char *examples[GN_COMMAND_EXAMPLES];
+    enum gn_words words;
+    int least, most;             /* how many words */
+    const char *expects, *takes; /* what fewer, and more of them, are told */
+    enum gn_command_config config;
+    const char *config_unless; /* with this option no file is searched; or NULL */
+    bool lays_content;         /* that of [kiosk] content over the file */
+    bool handles_signals;      /* SIGTERM and SIGINT, by itself; else they end the process */
 };
 extern const struct gn_command_row gn_commands[GN_COMMAND_COUNT];
 
