@@ -9,11 +9,11 @@
 #include "core/stop.h"
 #include "options/args.h"
 
-#define ROW(ID, id, ...) [GN_COMMAND_##ID] = gn_cli_##id,
 static gn_cli_command *const commands[GN_COMMAND_COUNT] = {
+#define GN_COMMAND(ID, id, ...) [GN_COMMAND_##ID] = gn_cli_##id,
 #include "options/command_rows.h"
+#undef GN_COMMAND
 };
-#undef ROW
 
 static bool run(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {

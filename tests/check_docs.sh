@@ -20,7 +20,7 @@ done > "$folder/missing"
 [ ! -s "$folder/missing" ] || complain "$(cat "$folder/missing")"
 
 # ---- options and goals ---------------------------------------------------------------------------
-for command in '' show render bench bake inspect doctor ctl compare score lesson take; do
+for command in '' $(commands_of); do
     # shellcheck disable=SC2086
     "$gnomon" $command --help
 done > "$folder/help"

@@ -9,9 +9,9 @@
 typedef bool gn_cli_command(const struct gn_options *options, struct gn_warnings *warnings,
                             struct gn_err *err);
 
-#define ROW(ID, id, ...) gn_cli_command gn_cli_##id;
+#define GN_COMMAND(ID, id, ...) gn_cli_command gn_cli_##id;
 #include "options/command_rows.h"
-#undef ROW
+#undef GN_COMMAND
 gn_cli_command gn_cli_check; /* `show --check FILE` */
 
 /* Shows it in a window or, without a desktop, full screen, if --backend allows it. *shown is false

@@ -118,15 +118,12 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
  * that were not shown yet; for those that were as much as all else takes, or 1/16 of the machine's.
  */
 static void drop_programs(struct gn_show *s) {
-    struct gn_scene_limits limits;
-    struct gn_err unused = {0}; /* they were checked when the mode was looked at */
-    if (!gn_stage_limits(s->stage.settings, &limits, &unused)) return;
     const struct gn_gl_idle idle = gn_gl_idle_programs(s->stage.gl);
     const uint64_t all = gn_memory_allocated();
     /* a cold compiler takes more than it keeps: never less than a quarter */
     const uint64_t needed = all - (idle.bytes < all / 4 * 3 ? idle.bytes : all / 4 * 3);
     const uint64_t whole = 125; /* percent: what was measured may be less than what it is */
-    const uint64_t percent = gn_scene_limits_or_default(&limits).ahead_percent;
+    const uint64_t percent = gn_stage_limits(s->stage.settings).ahead_percent;
     struct gn_gl_idle most = {.bytes = (gn_memory_total_mb() << 20) / 16,
                               .ahead_bytes = needed / whole * percent};
     if (most.bytes < needed) most.bytes = needed;
@@ -311,10 +308,9 @@ bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
 
 bool gn_show_start_load(struct gn_show *s, int number, const char *path,
                         const struct gn_settings *settings, struct gn_err *err) {
-    struct gn_scene_limits limits;
+    const struct gn_scene_limits limits = gn_stage_limits(settings);
     s->scenes.load_begun_ns = gn_loop_now_ns(s->loop);
-    return gn_stage_limits(settings, &limits, err) &&
-           gn_loader_start(s->scenes.loader, number, path, &limits, err);
+    return gn_loader_start(s->scenes.loader, number, path, &limits, err);
 }
 
 static bool is_ready(const struct gn_show *s, int scene) {

@@ -107,11 +107,8 @@ static void follow(struct gn_show *s) {
 static bool has_come(const struct gn_show_truth *t) { return t->rays && gn_rays_are_done(t->rays); }
 
 static bool begin_rays(struct gn_show *s, struct gn_err *err) {
-    struct gn_scene_limits limits;
     const struct gn_plan *plan = gn_stage_plan(&s->stage, s->warnings, err);
-    if (!plan || !gn_stage_limits(s->stage.settings, &limits, err)) return false;
-    limits = gn_scene_limits_or_default(&limits);
-    s->truth.rays = gn_rays_begin(&s->stage, plan, &limits, err);
+    s->truth.rays = plan ? gn_rays_begin(&s->stage, plan, err) : NULL;
     return s->truth.rays;
 }
 

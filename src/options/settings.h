@@ -11,7 +11,9 @@
 
 #include "options/schedule.h"
 #include "options/table.h"
+#include "scene/scene.h"
 #include "shadow/light_opts.h"
+#include "shadow/technique.h"
 
 struct gn_size {
     int width_px, height_px;
@@ -27,9 +29,9 @@ struct gn_limit {
 };
 struct gn_limits {
     int count;
-    struct gn_limit items[GN_LIMITS_MAX];
+    struct gn_limit items[GN_LIMITS_MAX]; /* as they were given */
+    struct gn_scene_limits all;           /* what they make */
 };
-#define GN_SCENES_MAX   16
 /* What the path of a lesson's scene inside the program begins with: "lesson:solids". */
 #define GN_SCENE_LESSON "lesson:"
 struct gn_scene_list {
@@ -52,20 +54,18 @@ enum gn_source {
     GN_SOURCE_SET, /* by `ctl set`, until a reload */
 };                 /* later ones override earlier ones */
 
-struct gn_override { /* one setting of a mode or a light, as the file has it */
+struct gn_override { /* one setting of a section of many, as the file has it */
     const struct gn_option_row *row;
     void *value;       /* as in the field */
     const char *label; /* "kiosk.ini:31: camera" */
     int line;
     struct gn_override *next;
 };
-/* [light "NAME"]: settings of the lights of that name alone. */
-enum { GN_LIGHT_SECTIONS_MAX = 32 };
-struct gn_light_section {
+struct gn_section { /* one of many: [mode "NAME"], [light "NAME"], [button "NAME"] */
     const char *name;
     const char *label; /* "kiosk.ini:31" */
     int line;
-    struct gn_override *first; /* in the order of the file; NULL: it changes nothing */
+    struct gn_override *first; /* in the order of the file; NULL: it sets nothing */
 };
 
 struct gn_scene_settings {
@@ -198,7 +198,7 @@ struct gn_settings {
     struct gn_kiosk_settings kiosk;
     struct gn_schedule_settings schedule;
     struct gn_run_settings run;
-    const struct gn_light_section *lights; /* of the file, the same in every mode */
+    const struct gn_section *lights; /* [light "NAME"] of the file, the same in every mode */
     int light_count;
     bool several_scenes;                /* some mode or next-scene shows another one */
     uint8_t source[GN_OPTION_COUNT];    /* enum gn_source of each row */

@@ -98,11 +98,11 @@ static const struct gn_choice ranges[] = {
     {"auto", GN_RANGE_AUTO}, {"full", GN_RANGE_FULL}, {"limited", GN_RANGE_LIMITED}, {0}};
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
 
-#define ROW(ID, id, ...) [GN_COMMAND_##ID] = {__VA_ARGS__},
 const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
+#define GN_COMMAND(ID, id, ...) [GN_COMMAND_##ID] = {__VA_ARGS__},
 #include "options/command_rows.h"
+#undef GN_COMMAND
 };
-#undef ROW
 
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
 #define GN_OPTION(...) {__VA_ARGS__},
@@ -137,30 +137,15 @@ const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t 
     return buffer;
 }
 
-static bool is_of_section(const struct gn_option_row *row, const char *section) {
-    if (section && strcmp(section, GN_SECTION_ONE_LIGHT) == 0) return row->of_light;
-    if (!row->section) return false;
-    if (!section) return strcmp(row->section, "scene") == 0 || strcmp(row->section, "render") == 0;
-    return strcmp(row->section, section) == 0;
-}
-
-/* Whether a row of [camera] or [light] may have its whole name there. */
-static bool may_have_name(const struct gn_option_row *row, const char *section) {
-    const char *own = row->section ? row->section : "";
-    if (strcmp(own, "light") != 0 && strcmp(own, "camera") != 0) return false;
-    return !section || strcmp(section, "render") == 0 || is_of_section(row, section);
+bool gn_option_is_of(const struct gn_option_row *row, const char *section) {
+    return row->section && strcmp(row->section, section) == 0;
 }
 
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key) {
     char buffer[64];
-    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++) {
-        if (is_of_section(row, section) &&
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (gn_option_is_of(row, section) &&
             strcmp(gn_option_key(row, buffer, sizeof buffer), key) == 0)
             return row;
-        const struct gn_option_row whole = {.name = row->name};
-        if (may_have_name(row, section) &&
-            strcmp(gn_option_key(&whole, buffer, sizeof buffer), key) == 0)
-            return row;
-    }
     return NULL;
 }

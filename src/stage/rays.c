@@ -11,20 +11,21 @@
 #include "truth/cast.h"
 
 static bool check_memory(const struct gn_stage *stage, const struct gn_plan *plan,
-                         const struct gn_scene_limits *limits, struct gn_err *err) {
+                         struct gn_err *err) {
+    const struct gn_scene_limits limits = gn_stage_limits(stage->settings);
     const uint64_t triangles_mb = gn_raycast_bytes(stage->scene) >> 20,
                    pixels_mb = gn_plan_map_bytes(plan) >> 20;
-    if (triangles_mb > limits->memory_mb)
+    if (triangles_mb > limits.memory_mb)
         return gn_fail(err,
                        "truth: the triangles of this scene take %llu MB, over the limit "
                        "memory_mb=%llu: raise it by --limit",
-                       (unsigned long long)triangles_mb, (unsigned long long)limits->memory_mb);
-    if (pixels_mb > limits->maps_mb)
+                       (unsigned long long)triangles_mb, (unsigned long long)limits.memory_mb);
+    if (pixels_mb > limits.maps_mb)
         return gn_fail(err,
                        "truth: the visibility of %u lights takes %llu MB, over the limit "
                        "maps_mb=%llu: raise it by --limit, or use a smaller --size",
                        plan->shadow_count, (unsigned long long)pixels_mb,
-                       (unsigned long long)limits->maps_mb);
+                       (unsigned long long)limits.maps_mb);
     return true;
 }
 
@@ -94,8 +95,7 @@ struct gn_rays {
 };
 
 static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
-                      const struct gn_plan *plan, const struct gn_scene_limits *limits,
-                      struct gn_err *err) {
+                      const struct gn_plan *plan, struct gn_err *err) {
     const size_t pixels = (size_t)plan->width_px * plan->height_px;
     rays->scene = stage->scene;
     rays->pose = &stage->pose;
@@ -103,7 +103,7 @@ static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
     for (uint32_t i = 0; i < plan->shadow_count; i++)
         if (plan->shadows[i].encoding == GN_ENCODING_SCREEN) rays->slots[rays->count++] = i;
     if (rays->count == 0) return true;
-    if (!check_memory(stage, plan, limits, err)) return false;
+    if (!check_memory(stage, plan, err)) return false;
     for (uint32_t i = 0; i < rays->count; i++) {
         const uint32_t light = plan->shadows[rays->slots[i]].light;
         gn_ray_lamp_init(&rays->lamps[i], &stage->pose, light);
@@ -162,13 +162,12 @@ static bool cast_now(struct gn_stage *stage, const struct gn_plan *plan, struct 
     return true;
 }
 
-bool gn_stage_cast(struct gn_stage *stage, const struct gn_plan *plan,
-                   const struct gn_scene_limits *limits, struct gn_err *err) {
+bool gn_stage_cast(struct gn_stage *stage, const struct gn_plan *plan, struct gn_err *err) {
     struct gn_rays rays = {.count = 0};
     if (stage->truth.given) return give(stage, plan, stage->truth.given, err);
     free(stage->truth.visibility);
     stage->truth.visibility = NULL;
-    bool ok = init_rays(&rays, stage, plan, limits, err);
+    bool ok = init_rays(&rays, stage, plan, err);
     if (ok && rays.count > 0) ok = cast_now(stage, plan, &rays, err);
     finish_rays(&rays);
     return ok;
@@ -209,9 +208,9 @@ static bool start(struct gn_rays *rays, struct gn_err *err) {
 }
 
 struct gn_rays *gn_rays_begin(struct gn_stage *stage, const struct gn_plan *plan,
-                              const struct gn_scene_limits *limits, struct gn_err *err) {
+                              struct gn_err *err) {
     struct gn_rays *rays = gn_xalloc(1, sizeof *rays);
-    bool ok = init_rays(rays, stage, plan, limits, err);
+    bool ok = init_rays(rays, stage, plan, err);
     if (ok) copy_pose(rays, &stage->pose);
     ok = ok && start(rays, err);
     if (ok) return rays;

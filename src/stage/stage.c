@@ -48,20 +48,15 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
                                err);
 }
 
-bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
-                     struct gn_err *err) {
-    const double floor_m = settings->scene.floor_m;
-    *limits = (struct gn_scene_limits){.floor = {.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
-                                                         : isinf(floor_m) ? GN_FLOOR_NONE
-                                                                          : GN_FLOOR_HEIGHT,
-                                                 .height_m = isfinite(floor_m) ? floor_m : 0.0}};
-    const double texture_px = settings->scene.texture_limit_px;
-    limits->texture_px = isfinite(texture_px) ? (uint32_t)texture_px : 0;
-    for (int i = 0; i < settings->render.limits.count; i++)
-        if (!gn_scene_limits_set(limits, settings->render.limits.items[i].name,
-                                 (uint64_t)settings->render.limits.items[i].value, err))
-            return false;
-    return true;
+struct gn_scene_limits gn_stage_limits(const struct gn_settings *settings) {
+    const double floor_m = settings->scene.floor_m, texture_px = settings->scene.texture_limit_px;
+    struct gn_scene_limits limits = gn_scene_limits_or_default(&settings->render.limits.all);
+    limits.floor = (struct gn_scene_floor){.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
+                                                   : isinf(floor_m) ? GN_FLOOR_NONE
+                                                                    : GN_FLOOR_HEIGHT,
+                                           .height_m = isfinite(floor_m) ? floor_m : 0.0};
+    limits.texture_px = isfinite(texture_px) ? (uint32_t)texture_px : 0;
+    return limits;
 }
 
 void gn_stage_name_source(const struct gn_settings *settings, struct gn_err *err) {
@@ -72,8 +67,7 @@ void gn_stage_name_source(const struct gn_settings *settings, struct gn_err *err
 
 struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,
                                 struct gn_err *err) {
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(settings, &limits, err)) return NULL;
+    const struct gn_scene_limits limits = gn_stage_limits(settings);
     struct gn_scene *scene = gn_stage_read(settings->scene.path, &limits, warnings, err);
     if (!scene) gn_stage_name_source(settings, err);
     return scene;
@@ -224,8 +218,6 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
         return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
                              gn_settings_label(o, render.light), o->render.light,
                              scene->light_count, scene->light_count == 1 ? "" : "s");
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
     set_framing(&look->frame_opts.view.framing, &o->camera, scene->place.origin);
     if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
@@ -237,7 +229,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (look->frame_opts.msaa > 1 && casts_rays(&look->frame_opts.shadow))
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
                              gn_settings_label(o, render.msaa), look->frame_opts.msaa);
-    limits = gn_scene_limits_or_default(&limits);
+    const struct gn_scene_limits limits = gn_stage_limits(o);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;
     if (choose_camera(o, scene, &look->frame_opts.view, err)) return true;
@@ -342,13 +334,10 @@ void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
 
 const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
                                     struct gn_warnings *warnings, struct gn_err *err) {
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(stage->settings, &limits, err)) return NULL;
-    limits = gn_scene_limits_or_default(&limits);
     gn_stage_pose(stage, time_ns);
     const struct gn_plan *plan = gn_stage_plan(stage, warnings, err);
     const bool ok =
-        plan && gn_stage_cast(stage, plan, &limits, err) && gn_gl_run(stage->gl, plan, NULL, err);
+        plan && gn_stage_cast(stage, plan, err) && gn_gl_run(stage->gl, plan, NULL, err);
     return ok ? plan : NULL;
 }
 

@@ -36,9 +36,8 @@ struct gn_stage {
     bool is_behind;    /* as in gn_plan, of the last plan: it wants another frame */
 };
 
-/* The limits of --limit, for the loader. */
-bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
-                     struct gn_err *err);
+/* The limits of --limit, for the loader, with the defaults of the others. */
+struct gn_scene_limits gn_stage_limits(const struct gn_settings *settings);
 /* A scene by its path; NULL: the built-in one. Uses no shared state: it may run in a thread. */
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
