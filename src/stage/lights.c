@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/srgb.h"
 #include "options/value.h"
 
 bool gn_light_section_is_of(const struct gn_light_section *section, const struct gn_scene *scene,
@@ -40,8 +41,7 @@ static void set_color(struct gn_frame_light_opts *entry, int srgb, const struct 
     float hue[3];
     memcpy(hue, light->color, sizeof hue);
     for (int k = 0; k < 3 && srgb >= 0; k++) {
-        const float s = (float)(srgb >> (16 - 8 * k) & 0xff) / 255;
-        hue[k] = s <= .04045f ? s / 12.92f : powf((s + .055f) / 1.055f, 2.4f);
+        hue[k] = gn_srgb_decode((float)(srgb >> (16 - 8 * k) & 0xff) / 255);
     }
     const float most = strongest_of(hue);
     for (int k = 0; k < 3; k++) entry->color[k] = intensity * (most > 0 ? hue[k] / most : 1);
