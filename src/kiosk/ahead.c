@@ -313,8 +313,9 @@ bool gn_show_start_load(struct gn_show *s, int number, const char *path,
                         const struct gn_settings *settings, struct gn_err *err) {
     struct gn_scene_limits limits;
     s->scenes.load_begun_ns = gn_loop_now_ns(s->loop);
-    return gn_stage_limits(settings, &limits, err) &&
-           gn_loader_start(s->scenes.loader, number, path, &limits, err);
+    if (!gn_stage_limits(settings, &limits, err)) return false;
+    gn_loader_start(s->scenes.loader, number, path, &limits);
+    return true;
 }
 
 static bool is_ready(const struct gn_show *s, int scene) {
