@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "blocks.glsl"
+#include "core/srgb.h"
 #include "frame/private.h"
 
 static void add_rectangle(struct gn_frame *frame, const struct gn_caption_quad *q, float alpha) {
@@ -61,7 +62,7 @@ static void add_dimming(struct gn_frame *frame, float share) {
     const bool encodes = frame->plan.encode_srgb;
     const float ground = (float)CAPTION_SHADE;
     const float shade = encodes ? ground : powf((ground + 0.055f) / 1.055f, 2.4f);
-    float left = encodes ? gn_frame_srgb_from_linear(light) : light;
+    float left = encodes ? gn_srgb_encode(light) : light;
     while (left < shade) {
         add_rectangle(frame, &all, 1.0f);
         left /= shade;

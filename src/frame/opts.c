@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/srgb.h"
 #include "frame/private.h"
 
 const struct gn_light_opts *gn_frame_own_opts(const struct gn_frame_opts *opts, uint32_t light) {
@@ -27,10 +28,8 @@ static void set_hue(float color[3], int srgb, const struct gn_light *light) {
     const float intensity = strongest_of(color);
     float hue[3];
     memcpy(hue, light->color, sizeof hue);
-    for (int k = 0; k < 3 && srgb >= 0; k++) {
-        const float s = (float)(srgb >> (16 - 8 * k) & 0xff) / 255;
-        hue[k] = s <= .04045f ? s / 12.92f : powf((s + .055f) / 1.055f, 2.4f);
-    }
+    for (int k = 0; k < 3 && srgb >= 0; k++)
+        hue[k] = gn_srgb_decode((float)(srgb >> (16 - 8 * k) & 0xff) / 255);
     const float most = strongest_of(hue);
     for (int k = 0; k < 3; k++) color[k] = intensity * (most > 0 ? hue[k] / most : 1);
 }

@@ -187,9 +187,6 @@ void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
 GN_FRAME_STEPS(X)
 #undef X
 
-/* Of 0 to 1; others are clamped (picture.c). */
-float gn_frame_srgb_from_linear(float c);
-
 /* ---- filter.c, budget.c, gather.c: what belongs to the maps ---- */
 
 /* The passes that turn a map into what shaders read; none where that is the map. */

@@ -306,11 +306,11 @@ bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
            gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
 }
 
-bool gn_show_start_load(struct gn_show *s, int number, const char *path,
-                        const struct gn_settings *settings, struct gn_err *err) {
+void gn_show_start_load(struct gn_show *s, int number, const char *path,
+                        const struct gn_settings *settings) {
     const struct gn_scene_limits limits = gn_stage_limits(settings);
     s->scenes.load_begun_ns = gn_loop_now_ns(s->loop);
-    return gn_loader_start(s->scenes.loader, number, path, &limits, err);
+    gn_loader_start(s->scenes.loader, number, path, &limits);
 }
 
 static bool is_ready(const struct gn_show *s, int scene) {
@@ -369,11 +369,8 @@ void gn_show_advance(struct gn_show *s) {
 
     /* one load at a time; a reload, which may change the list, comes first */
     if (scene != scenes->shown && !scenes->staged && !s->reload.options &&
-        !gn_loader_is_busy(scenes->loader)) {
-        struct gn_err err = {0};
-        if (!gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings, &err))
-            fail_place(s, GN_KIOSK_SCENE_FAILED, scene, err.text);
-    }
+        !gn_loader_is_busy(scenes->loader))
+        gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings);
     if (!is_ready(s, scene)) {
         if (scenes->staged || scene == scenes->shown) s->ahead.idle = false;
         return;

@@ -267,8 +267,8 @@ void gn_show_forget_work(struct gn_show *show);
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_close_loader(struct gn_show *show);
 /* Not while the loader is busy. path NULL: the default scene. */
-bool gn_show_start_load(struct gn_show *show, int number, const char *path,
-                        const struct gn_settings *settings, struct gn_err *err);
+void gn_show_start_load(struct gn_show *show, int number, const char *path,
+                        const struct gn_settings *settings);
 /* Loads the wanted scene, and shows the wanted mode and scene once they are ready. */
 void gn_show_advance(struct gn_show *show);
 /* gn_show_advance() can show the wanted mode and scene now. */

@@ -268,8 +268,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     const char *path = scene_path(r->options->settings, r->scene);
     if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP && !(r->first && s->first.lost[0]))
         snprintf(s->config.asked, sizeof s->config.asked, "%s", path ? path : "");
-    if (!gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings, &why))
-        keep_old(s, r->cause, &why);
+    gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings);
     return true;
 }
 
@@ -287,8 +286,7 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
         gn_loaded_drop(s->reload.loaded);
         s->reload.loaded = NULL;
         o = s->config.options->settings;
-        if (!gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->memory.scene), o, err))
-            return false;
+        gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->memory.scene), o);
         while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
             gn_loop_step(s->loop, until_ns);
         if (s->ends) return false;

@@ -163,12 +163,11 @@ static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64
 static void begin_save(void *user, int64_t now_ns) {
     struct gn_show *s = user;
     struct gn_show_memory *m = &s->memory;
-    struct gn_err err = {0};
     m->saved_ns = m->begun ? now_ns : 0; /* after the first there is no rest */
     m->begun = true;
     m->changed = false;
     m->state.sequence++;
-    if (!gn_keeper_start(m->keeper, &m->state, &err)) end_save(s, false, &err, now_ns);
+    gn_keeper_save(m->keeper, &m->state);
 }
 
 static void take_save(void *user, uint32_t events, int64_t now_ns) {
@@ -183,7 +182,7 @@ static void open_memory(struct gn_show *s) {
     struct gn_show_memory *m = &s->memory;
     struct gn_err err = {0};
     if (!m->path[0]) return;
-    m->keeper = gn_keeper_create(&gn_disk, m->path, m->older, &err);
+    m->keeper = gn_keeper_open(&gn_disk, m->path, m->older, &err);
     m->done = (struct gn_watch){.fd = m->keeper ? gn_keeper_fd(m->keeper) : -1,
                                 .events = EPOLLIN,
                                 .call = take_save,
@@ -258,12 +257,11 @@ static void remember(struct gn_show *s) {
 
 static void end_memory(struct gn_show *s) {
     struct gn_show_memory *m = &s->memory;
-    struct gn_err err = {0};
     if (!m->keeper) return;
     remember(s);
     m->state.runs = s->failed;
     m->state.sequence++;
-    if (!gn_keeper_start_last(m->keeper, &m->state, &err)) report_failure(s, &err);
+    gn_keeper_save(m->keeper, &m->state);
     gn_loop_remove(&m->done);
     gn_loop_remove_timer(&m->timer);
 }

@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,27 +20,48 @@ static unsigned sum_text(const char *text, size_t size) {
     return (unsigned)crc32(0, (const Bytef *)text, (uInt)size);
 }
 
-static size_t add_text(char *out, size_t used, const char *key, const char *text) {
-    if (!text[0] || strpbrk(text, "\r\n")) return used;
-    return used +
-           (size_t)snprintf(out + used, GN_STATE_TEXT_MAX - used, "%s %.*s\n", key, PATH_MAX, text);
+/* The lines between the first and the last, in their order. */
+static const struct line {
+    const char *key;
+    enum { TEXT, FLAG, NUMBER } kind;
+    size_t offset, size;
+} lines[] = {
+#define LINE(key, kind, member)                                                                    \
+    { key, kind, offsetof(struct gn_state, member), sizeof((struct gn_state *)0)->member }
+    LINE("sequence", NUMBER, sequence),
+    LINE("mode", TEXT, mode),
+    LINE("scene", TEXT, scene),
+    LINE("past", TEXT, past),
+    LINE("listed", TEXT, listed),
+    LINE("given", FLAG, given),
+    LINE("runs", FLAG, runs),
+    LINE("boot", TEXT, boot),
+#define X(id) LINE(#id, NUMBER, counts.id),
+    GN_STATE_COUNTS(X)
+#undef X
+#undef LINE
+};
+enum { LINES = sizeof lines / sizeof lines[0] };
+
+static size_t print_line(const struct line *line, const void *value, char *out, size_t size) {
+    const char *text = value;
+    switch (line->kind) {
+    case TEXT:
+        if (!text[0] || strpbrk(text, "\r\n")) return 0;
+        return (size_t)snprintf(out, size, "%s %s\n", line->key, text);
+    case FLAG:
+        return (size_t)snprintf(out, size, "%s %s\n", line->key,
+                                *(const bool *)value ? "yes" : "no");
+    default:
+        return (size_t)snprintf(out, size, "%s %" PRIu64 "\n", line->key, *(const uint64_t *)value);
+    }
 }
 
 size_t gn_state_print(const struct gn_state *s, char out[GN_STATE_TEXT_MAX]) {
-    size_t used =
-        (size_t)snprintf(out, GN_STATE_TEXT_MAX, "%ssequence %" PRIu64 "\n", head, s->sequence);
-    used = add_text(out, used, "mode", s->mode);
-    used = add_text(out, used, "scene", s->scene);
-    used = add_text(out, used, "past", s->past);
-    used = add_text(out, used, "listed", s->listed);
-    used = add_text(out, used, "given", s->given ? "yes" : "no");
-    used = add_text(out, used, "runs", s->runs ? "yes" : "no");
-    used = add_text(out, used, "boot", s->boot);
-#define X(id)                                                                                      \
-    used += (size_t)snprintf(out + used, GN_STATE_TEXT_MAX - used, #id " %" PRIu64 "\n",           \
-                             s->counts.id);
-    GN_STATE_COUNTS(X)
-#undef X
+    size_t used = (size_t)snprintf(out, GN_STATE_TEXT_MAX, "%s", head);
+    for (int i = 0; i < LINES; i++)
+        used += print_line(&lines[i], (const char *)s + lines[i].offset, out + used,
+                           GN_STATE_TEXT_MAX - used);
     return used + (size_t)snprintf(out + used, GN_STATE_TEXT_MAX - used, "%s%08x\n", sum_key,
                                    sum_text(out, used));
 }
@@ -53,42 +75,25 @@ static bool is_whole(const char *text, size_t size, struct gn_err *err) {
            gn_fail(err, "its checksum is wrong");
 }
 
-static void take_text(const char *value, size_t length, char *out, size_t room) {
-    if (length >= room) return; /* of a later version */
-    memcpy(out, value, length);
-    out[length] = 0;
+/* length: of the value, which a line end follows. */
+static void take_value(const struct line *line, const char *value, size_t length, void *out) {
+    switch (line->kind) {
+    case TEXT:
+        if (length >= line->size) return; /* of a later version */
+        memcpy(out, value, length);
+        ((char *)out)[length] = 0;
+        break;
+    case FLAG: *(bool *)out = *value == 'y'; break;
+    case NUMBER: *(uint64_t *)out = strtoull(value, NULL, 10); break;
+    }
 }
 
-static void take_line(struct gn_state *s, const char *line, size_t length) {
-    const char *space = memchr(line, ' ', length);
-    if (!space) return;
-    const char *value = space + 1;
-    const size_t key = (size_t)(space - line), rest = length - key - 1;
-    const struct {
-        const char *key;
-        char *out;
-        size_t room;
-    } texts[] = {{"mode", s->mode, sizeof s->mode},
-                 {"scene", s->scene, sizeof s->scene},
-                 {"past", s->past, sizeof s->past},
-                 {"listed", s->listed, sizeof s->listed},
-                 {"boot", s->boot, sizeof s->boot}};
-    const struct {
-        const char *key;
-        uint64_t *out;
-    } numbers[] = {{"sequence", &s->sequence},
-#define X(id) {#id, &s->counts.id},
-                   GN_STATE_COUNTS(X)
-#undef X
-    };
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
-        if (strlen(texts[i].key) == key && memcmp(texts[i].key, line, key) == 0)
-            take_text(value, rest, texts[i].out, texts[i].room);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        if (strlen(numbers[i].key) == key && memcmp(numbers[i].key, line, key) == 0)
-            *numbers[i].out = strtoull(value, NULL, 10); /* ends at the line's end */
-    if (key == 5 && memcmp(line, "given", key) == 0) s->given = *value == 'y';
-    if (key == 4 && memcmp(line, "runs", key) == 0) s->runs = *value == 'y';
+static void take_line(struct gn_state *s, const char *text, size_t length) {
+    const char *space = memchr(text, ' ', length);
+    const size_t key = space ? (size_t)(space - text) : length;
+    for (int i = 0; space && i < LINES; i++)
+        if (strlen(lines[i].key) == key && memcmp(lines[i].key, text, key) == 0)
+            take_value(&lines[i], space + 1, length - key - 1, (char *)s + lines[i].offset);
 }
 
 bool gn_state_parse(const char *text, size_t size, struct gn_state *out, struct gn_err *err) {

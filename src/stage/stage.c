@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/embedded.h"
+#include "core/srgb.h"
 #include "core/stop.h"
 #include "stage/environment.h"
 #include "stage/import.h"
@@ -142,11 +143,6 @@ static enum gn_background background_of(int setting) {
                                             : GN_BACKGROUND_COLOR;
 }
 
-static float linear_of(unsigned code) {
-    const float c = (float)code / 255.0f;
-    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
-}
-
 static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o) {
     const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
@@ -174,7 +170,8 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .debug.show_maps = o->render.show_maps,
     };
     for (int k = 0; k < 3 && f->background == GN_BACKGROUND_COLOR; k++)
-        f->background_color[k] = linear_of((unsigned)o->render.background >> (16 - 8 * k) & 255);
+        f->background_color[k] =
+            gn_srgb_decode((float)((unsigned)o->render.background >> (16 - 8 * k) & 255) / 255.0f);
 }
 
 static bool casts_rays(const struct gn_frame_shadow_opts *shadow) {
