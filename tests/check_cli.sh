@@ -128,7 +128,7 @@ expect 2 'compare: expected two pictures' compare "$folder/a.png"
 expect 2 'compare: unexpected argument' compare a.png b.png c.png
 expect 2 'lesson: expected list, all or the name of a lesson' lesson
 expect 2 'there is no lesson "acnee"; did you mean acne?' lesson acnee
-expect 2 'one lesson, or all' lesson acne leak
+expect 2 'it takes list, all or the name of a lesson' lesson acne leak
 expect 2 'does not go with lesson' lesson acne --shadow pcf
 expect 1 'lesson:nowhere: there is no such scene inside' render lesson:nowhere -o "$folder/a.png"
 expect 2 'take: nothing is to be taken' take

@@ -67,6 +67,8 @@ picture() {
     line $status "picture.$type" "$type $size $*"
 }
 small() { picture 320x180 png "$@"; }
+# all that the program has, as its refusal of another one lists them
+techniques=$("$gnomon" render --shadow '?' 2>&1 | sed -n 's/.* is not one of //p' | tr -d ,)
 
 head_lines() {
     echo "# $(uname -sm), LP_NUM_THREADS=$LP_NUM_THREADS"
@@ -78,7 +80,7 @@ head_lines() {
 
 default_scene() {
     small
-    for shadow in none hard pcf pcf2 pcf3 pcf5 box3 box5 disk poisson white pcss vsm evsm msm vssm smsm planar; do
+    for shadow in $techniques; do
         small --shadow $shadow
         small --shadow $shadow --camera Dial --time 3.5
         small --shadow $shadow --light 1 --aov visibility

@@ -178,7 +178,8 @@ static void print_keys(void) {
 static void print_examples(void) {
     puts(".SH EXAMPLES\n.nf");
     for (int i = 0; i < GN_COMMAND_COUNT; i++)
-        for (int k = 0; k < GN_HELP_EXAMPLES; k++) print_line("", gn_help_examples[i][k], "\n");
+        for (int k = 0; k < GN_COMMAND_EXAMPLES; k++)
+            print_line("", gn_commands[i].examples[k], "\n");
     puts(".fi");
 }
 

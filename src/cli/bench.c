@@ -116,11 +116,11 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
         const struct gn_shadow_view *view = &plan->shadows[i];
         gn_bench_add_name(run->map_format, view->moments ? gn_moments[view->moments].name
                                                          : gn_encodings[view->encoding].name);
-        if (!e->opts.shadow.technique_given)
+        if (!GN_LIGHT_HAS(&e->opts.shadow.any, technique))
             gn_bench_add_name(run->technique, gn_techniques[view->technique].name);
     }
-    if (e->opts.shadow.technique_given)
-        gn_bench_add_name(run->technique, gn_techniques[e->opts.shadow.technique].name);
+    if (GN_LIGHT_HAS(&e->opts.shadow.any, technique))
+        gn_bench_add_name(run->technique, gn_techniques[e->opts.shadow.any.technique].name);
     if (!run->technique[0]) gn_bench_add_name(run->technique, "none");
     if (!run->map_format[0]) gn_bench_add_name(run->map_format, "none");
     run->output = b->settings->render.output == GN_PICTURE_LINEAR ? "linear" : "srgb";
@@ -154,8 +154,7 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
     for (uint32_t i = 0; i < b->report->run_count; i++) {
         struct entry *e = &b->entries[i];
         e->opts = b->stage.frame_opts;
-        e->opts.shadow.technique_given = given;
-        e->opts.shadow.technique = given ? (enum gn_technique)list->items[i] : GN_TECHNIQUE_NONE;
+        if (given) GN_LIGHT_SET(&e->opts.shadow.any, technique, (enum gn_technique)list->items[i]);
         e->run = &b->report->runs[i];
         e->ms = gn_xalloc(b->frames, sizeof *e->ms);
     }

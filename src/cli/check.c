@@ -52,8 +52,9 @@ static bool check_look(struct check *c, const struct gn_settings *settings, cons
     struct gn_stage_look look;
     const struct gn_scene *scene = scene_of(c, settings, path, err);
     if (!scene || !gn_stage_look_build(&look, settings, scene, c->warnings, err)) return false;
-    const struct gn_technique_row *technique = &gn_techniques[look.frame_opts.shadow.technique];
-    if (!look.frame_opts.shadow.technique_given || !technique->on_plane) return true;
+    const struct gn_light_opts *any = &look.frame_opts.shadow.any;
+    const struct gn_technique_row *technique = &gn_techniques[any->technique];
+    if (!GN_LIGHT_HAS(any, technique) || !technique->on_plane) return true;
     for (uint32_t i = 0; i < scene->item_count; i++)
         if (scene->items[i].plane && scene->items[i].receives) return true;
     return gn_fail(err, "%s: %s needs a plane, and nothing in %s is one; gnomon_plane names it",

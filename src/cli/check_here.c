@@ -126,7 +126,7 @@ static void check_connector(struct here *h, const struct gn_settings *s) {
     }
 }
 
-/* The adapter that would tell the television; one without a television may get one. */
+/* The adapter that would send the messages; a television may be plugged into one without. */
 static void check_television(struct here *h, const struct gn_settings *s) {
     const struct gn_cec_opts opts = {.device = s->schedule.cec_device,
                                      .connector = s->display.connector};

@@ -83,7 +83,7 @@ static void print_devices(const struct gn_machine *m, bool gpio, FILE *to) {
                 m->connectors[i].modes[0] ? ", " : "", m->connectors[i].modes);
 }
 
-/* What the kernel tells of it; that may be nothing. */
+/* What the kernel reports about it, which may be nothing. */
 static void print_health(const struct gn_health *h, FILE *to) {
     char text[200];
     const bool tells_voltage = h->undervoltage >= 0 || h->firmware >= 0;

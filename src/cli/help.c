@@ -21,26 +21,6 @@ const struct gn_help_entry gn_help_exits[] = {
     {0},
 };
 
-const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
-    [GN_COMMAND_AUTO] = {"gnomon scene.glb", "gnomon --shadow cone --turntable 6 scene.glb"},
-    [GN_COMMAND_SHOW] = {"gnomon show -c kiosk.ini", "gnomon show --check kiosk.ini"},
-    [GN_COMMAND_RENDER] = {"gnomon render scene.glb -o picture.png --size 1920x1080 --msaa 4",
-                           "gnomon render scene.glb -o frame-%04d.png --frames 100 --fps 25"},
-    [GN_COMMAND_BENCH] = {"gnomon bench scene.glb --shadow pcf,cone,pcss",
-                          "gnomon bench scene.glb --frames 200 --json"},
-    [GN_COMMAND_INSPECT] = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --json"},
-    [GN_COMMAND_DOCTOR] = {"gnomon doctor", "gnomon doctor --self-test"},
-    [GN_COMMAND_CTL] = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
-    [GN_COMMAND_COMPARE] = {"gnomon compare a.png b.png --diff difference.png",
-                            "gnomon compare a.pfm truth.pfm --json"},
-    [GN_COMMAND_SCORE] = {"gnomon score picture.pfm --truth field-sun-00",
-                          "gnomon score build/benchmark/pcf --csv"},
-    [GN_COMMAND_LESSON] = {"gnomon lesson position", "gnomon lesson all -o lessons"},
-    [GN_COMMAND_BAKE] = {"gnomon bake scene.glb -o board.glb",
-                         "gnomon bake scan.obj -o board.glb --simplify 0.25 --texture-limit 1024"},
-    [GN_COMMAND_TAKE] = {"gnomon take /media/stick", "gnomon take --rollback"},
-};
-
 /* ---- texts --------------------------------------------------------------------------------- */
 
 void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
@@ -165,7 +145,8 @@ void gn_help_print(FILE *to, enum gn_command command) {
               to);
     }
     fputs("\nexamples:\n", to);
-    for (int i = 0; i < GN_HELP_EXAMPLES; i++) fprintf(to, "  %s\n", gn_help_examples[command][i]);
+    for (int i = 0; i < GN_COMMAND_EXAMPLES; i++)
+        fprintf(to, "  %s\n", gn_commands[command].examples[i]);
     if (command == GN_COMMAND_CTL) fputs("\ncommands:\n", to);
     for (int i = 0; command == GN_COMMAND_CTL && i < GN_CTL_COUNT; i++) {
         const struct gn_ctl_row *row = &gn_ctl_rows[i];

@@ -151,10 +151,9 @@ static bool make_truth(struct desk *desk, struct gn_warnings *warnings, struct g
         gn_raycast_finish(&rays);
     }
     if (!desk->folder) return true;
-    struct gn_frame_shadow_opts *shadow = &desk->stage.frame_opts.shadow;
-    shadow->technique_given = true;
-    shadow->technique = GN_TECHNIQUE_TRUTH;
-    shadow->encoding = GN_ENCODING_AUTO;
+    struct gn_light_opts *any = &desk->stage.frame_opts.shadow.any;
+    GN_LIGHT_SET(any, technique, GN_TECHNIQUE_TRUTH);
+    any->given &= ~GN_LIGHT_GIVEN(map_format);
     return write_color(desk, "truth", warnings, err);
 }
 

@@ -173,7 +173,7 @@ bool gn_cli_take(const struct gn_options *options, struct gn_warnings *warnings,
         print_shown(dir);
         return true;
     }
-    bool ok = gn_take_open(&take, &gn_take_disk, dir, NULL, err);
+    bool ok = gn_take_open(&take, &gn_disk, dir, NULL, err);
     if (ok) ok = stick ? take_stick(options, &take, stick, warnings, err) : go_back(&take, err);
     gn_take_close(&take);
     return ok;

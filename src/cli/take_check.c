@@ -88,7 +88,8 @@ static void check_copy(void *shared, const void *argument) {
 
 /* ---- its texts ------------------------------------------------------------------------------ */
 
-/* The copy's folder is nobody's; the stick's is meant. It is longer than that name. */
+/* The copy's folder means nothing to a reader: the message names the stick's. It is longer than
+ * that name. */
 static void rename_folder(char *text, const char *folder) {
     static const char name[] = "gnomon";
     const size_t length = strlen(folder), used = sizeof name - 1;

@@ -59,7 +59,7 @@ static bool wait_for_child(pid_t pid, int end, const struct gn_child *child, voi
          * sleep where the kernel has pidfd_open() (5.3). */
         struct pollfd wakes[] = {{.fd = end, .events = POLLIN}, {.fd = wake, .events = POLLIN}};
         poll(wakes, 2, round < 20 ? 5 : 100);
-        if (wakes[1].revents & ~POLLIN) wake = -1; /* nobody can write any more */
+        if (wakes[1].revents & ~POLLIN) wake = -1; /* no writer is left */
     }
 }
 

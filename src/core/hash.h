@@ -11,7 +11,7 @@
 /* Chainable: h = gn_hash(h, a, sizeof a); h = gn_hash(h, b, sizeof b). Any size; 8 bytes a step. */
 uint64_t gn_hash(uint64_t h, const void *data, size_t size);
 
-/* A secret of this process: nobody can make a file whose keys collide under it. */
+/* A secret of this process, so that no file can be made whose keys collide under it. */
 struct gn_hash_key {
     uint64_t word[2];
 };

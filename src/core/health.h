@@ -1,4 +1,4 @@
-/* What boards suffer from, where the kernel says so: a supply that is too weak, a clock lowered
+/* What boards suffer from, where the kernel reports it: a supply that is too weak, a clock lowered
  * because of heat, contiguous memory (CMA) that runs out. One reading, and what follows from
  * several. */
 #ifndef GN_CORE_HEALTH_H
@@ -23,8 +23,8 @@ enum gn_health_bits {
 };
 
 struct gn_health {
-    int undervoltage;            /* 0 or 1; -1: the kernel does not say */
-    int64_t firmware;            /* the bits above; -1: the kernel does not say */
+    int undervoltage;            /* 0 or 1; -1: not reported by the kernel */
+    int64_t firmware;            /* the bits above; -1: not reported by the kernel */
     int cooled;                  /* devices that run slower to stay cool; -1: there are none */
     char cooling[48];            /* the type of one of them */
     int hottest_mc;              /* thousandths of a degree, of all zones; 0: unknown */

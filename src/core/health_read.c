@@ -1,4 +1,4 @@
-/* Where the kernel says it:
+/* Where the kernel reports it:
  * /sys/class/hwmon: rpi_volt (drivers/hwmon/raspberrypi-hwmon.c) asks the firmware every 2 s and
  * keeps its answer, so reading it does not wait.
  * soc:firmware/get_throttled: Raspberry Pi's kernels only (drivers/firmware/raspberrypi.c there);

@@ -13,7 +13,7 @@ struct gn_opener {
 };
 
 /* Answers one request, if one waits. Trusts nothing that comes. Never waits for the other process,
- * but for the file system. */
+ * except for the file system. */
 void gn_opener_serve(const struct gn_opener *opener);
 
 /* In the other process: the descriptor of that file, or -1 with the reason. Waits. Needs no system

@@ -57,7 +57,7 @@ static void close_adapter(const struct gn_cec_opts *o, struct gn_cec_adapter *a)
 
 enum match { IS_OTHER, IS_UNKNOWN, IS_SAME }; /* what the adapter's connector is */
 
-/* Kernels before 6.2 do not say which number a connector has, but which card it is of. */
+/* Kernels before 6.2 report the card of a connector, but not its number. */
 static enum match match_connector(const struct gn_cec_opts *o, const struct gn_cec_adapter *a) {
     struct cec_connector_info info = {0};
     char path[256];
@@ -152,7 +152,7 @@ static void find_adapter(const struct gn_cec_opts *o, struct gn_cec_report *r) {
         *a = (struct gn_cec_adapter){.fd = -1};
         return;
     }
-    r->why[0] = '\0'; /* others may be in the way of nobody */
+    r->why[0] = '\0'; /* the others may concern an adapter without a television */
     r->result = a->has_address ? GN_CEC_TOLD : GN_CEC_UNPLUGGED;
     if (!a->has_address)
         snprintf(r->why, sizeof r->why, "no television is connected to %s%s", a->path,
@@ -196,7 +196,7 @@ static int wait_for_claim(const struct gn_cec_opts *o, const struct gn_cec_repor
 }
 
 /* Claims a logical address, unless there is one. False: see r. With *own 15 it has none, but the
- * television hears it all the same. */
+ * television receives it all the same. */
 static bool claim_address(const struct gn_cec_opts *o, struct gn_cec_report *r, uint8_t *own) {
     struct cec_log_addrs have = {0};
     int error = call_adapter(o, &r->adapter, CEC_ADAP_G_LOG_ADDRS, &have);
@@ -258,7 +258,7 @@ static bool send_source(const struct gn_cec_opts *o, struct gn_cec_report *r, ui
     return send_message(o, r, &message);
 }
 
-/* One that does not say counts as on. */
+/* A television that does not report its power status counts as on. */
 static bool says_not_on(const struct gn_cec_opts *o, const struct gn_cec_report *r, uint8_t own) {
     struct cec_msg message;
     cec_msg_init(&message, own, CEC_LOG_ADDR_TV);

@@ -1,5 +1,5 @@
-/* A television over HDMI's CEC: told to go into standby, or to come on and show this machine. The
- * calls block, for seconds where nobody answers: they are for a thread (display/television.h).
+/* Switches a television over HDMI CEC into standby, or on and to this machine's input. The
+ * calls block, for seconds where no device answers: they are for a thread (display/television.h).
  *
  * The kernel's adapters are /dev/cec0, 1, ..; each has the physical address that the television
  * behind its connector names in its EDID, ffff without one. An adapter without a logical address
@@ -31,10 +31,10 @@ struct gn_cec_opts {              /* zero means the default written beside */
 
 enum gn_cec_result {
     GN_CEC_TOLD,
-    GN_CEC_STARTS,    /* told to come on, and says that it is about to: to be told again then, since
-                         many do not hear meanwhile which source to show */
-    GN_CEC_UNPLUGGED, /* the adapter has no physical address */
-    GN_CEC_NO_ANSWER, /* nobody acknowledges */
+    GN_CEC_STARTS,     /* it reports that it is starting: the request is to be repeated then, since
+                          many ignore meanwhile which source to show */
+    GN_CEC_UNPLUGGED,  /* the adapter has no physical address */
+    GN_CEC_NO_ANSWER,  /* no device acknowledges */
     GN_CEC_NO_ADAPTER, /* it is missing, or cannot be used; see why */
 };
 struct gn_cec_adapter {
@@ -47,7 +47,7 @@ struct gn_cec_adapter {
 struct gn_cec_report {
     enum gn_cec_result result;
     struct gn_cec_adapter adapter; /* that was used; closed again; path "": none */
-    char why[200];                 /* what and where, and what to do; "" if told */
+    char why[200]; /* what and where, and what to do; "": the message was acknowledged */
 };
 
 /* The adapter that gn_cec_tell() would use, in report->adapter: TOLD, UNPLUGGED or NO_ADAPTER.

@@ -70,7 +70,7 @@ struct gn_screen {
     uint8_t *copy_to;   /* not NULL between begin and present: draw off screen and copy here as
                            XRGB8888, top row first */
     size_t copy_stride; /* bytes */
-    enum gn_screen_range range; /* of its levels, as it was set; automatic: nobody set it here */
+    enum gn_screen_range range; /* of its levels, as it was set; automatic: it was not set */
     bool lacks_range;           /* one is asked for that its connector cannot be set to */
     int64_t period_ns;          /* refresh interval */
     int64_t

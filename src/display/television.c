@@ -17,8 +17,9 @@ struct gn_television {
     char wanted_connector[64]; /* from here on under the worker's mutex */
     struct gn_television_state state;
     int64_t due_ns; /* of the next attempt; INT64_MAX: none */
-    int tries;  /* attempts since something else was wanted, but for those without a television, */
-    int starts; /* and for those in a row in which it said that it starts */
+    int tries;  /* attempts since another state was wanted, without those that found no television,
+                 */
+    int starts; /* and those in a row in which it reported that it is starting */
 };
 
 int gn_television_pause_s(enum gn_cec_result result, bool on, int tries) {

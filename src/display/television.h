@@ -19,17 +19,17 @@ struct gn_television_opts {
 };
 enum gn_television_wish { GN_TELEVISION_ANY, GN_TELEVISION_ON, GN_TELEVISION_STANDBY };
 struct gn_television_state {
-    enum gn_television_wish wanted, told; /* told: acknowledged last, ANY: not yet */
+    enum gn_television_wish wanted, told; /* told: the state acknowledged last, ANY: none yet */
     uint64_t attempts;
     char device[64]; /* "": none found yet */
-    char waits[200]; /* why it is not told what is wanted; "": it is, or is being told */
+    char waits[200]; /* why the wanted state is not sent; "": it was sent, or is being sent */
     char problem[200];
 };
 
 struct gn_television;
 struct gn_television *gn_television_open(const struct gn_television_opts *opts, struct gn_err *err);
 /* Takes no time. The connector that shows the picture, "HDMI-A-1", is copied; at another one there
- * may be another television, which has to be told; NULL or "": as before. */
+ * may have another television, to which the state is sent again; NULL or "": as before. */
 void gn_television_set(struct gn_television *television, bool on, const char *connector);
 int gn_television_fd(const struct gn_television *television); /* readable after each attempt */
 void gn_television_read(struct gn_television *television, struct gn_television_state *state);

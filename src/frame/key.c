@@ -135,7 +135,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         const struct gn_frame_light *light = &frame->lights[group->first + i];
         key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
         key->lights[i].slide = (uint8_t)light->slide;
-        key->lights[i].slide_ends = light->slide != GN_SLIDE_NONE && light->slide_far_m > 0.0f;
+        key->lights[i].slide_ends = light->slide != GN_SLIDE_NONE && light->opts.slide_far_m > 0.0f;
         key->lights[i].ranged = gn_light_types[key->lights[i].type].has_position &&
                                 (frame->scene->lights[light->light].range_m > 0.0f ||
                                  frame->scene->lights[light->light].range_moves);
@@ -144,12 +144,10 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].encoding = (uint8_t)gn_encoding_of_programs(light->encoding);
         key->lights[i].moments = (uint8_t)gn_moments_of_programs(light->moments);
         key->lights[i].cascades = light->cascades > 1;
-        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
         key->lights[i].filter_set = gn_techniques[light->technique].filter_radius_px > 0.0f &&
-                                    gn_frame_filter_radius_px(opts, &one) > 0.0f;
-        const uint32_t taps = one.given & GN_LIGHT_TAPS ? one.taps : opts->shadow.taps;
+                                    light->opts.filter_radius_px > 0.0f;
         key->lights[i].taps =
-            (uint8_t)gn_taps_count(gn_techniques[light->technique].taps, (int)taps);
+            (uint8_t)gn_taps_count(gn_techniques[light->technique].taps, (int)light->opts.taps);
         if (key->lights[i].taps) key->taps_turn = !opts->shadow.taps_fixed;
     }
 }

@@ -4,7 +4,7 @@
 #include "frame/private.h"
 
 /* What the scene's maker chose to see is left alone: lights of its own at their exposure. What is
- * lit by a light or an environment that gnomon made has highlights that nobody has looked at. */
+ * lit by a light or an environment that gnomon made has highlights that its author has not seen. */
 static enum gn_tone tone_of_scene(const struct gn_scene *scene,
                                   const struct gn_frame_environment_opts *environment) {
     return scene->added.light || (environment->of && !environment->reflected_only) ? GN_TONE_NEUTRAL

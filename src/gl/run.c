@@ -93,7 +93,7 @@ static enum gn_clear_area begin_clear(const struct gn_plan *plan, struct gn_gl_m
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
 }
 
-/* Draws the points of a lamp that its mask lacks, from so many on. The depth buffer tells which
+/* Draws the points of a lamp that its mask lacks, from so many on. The depth buffer shows which
  * texels a point has darkened already. */
 static void draw_points(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                         uint32_t first) {

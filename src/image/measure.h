@@ -12,8 +12,8 @@ struct gn_pixels { /* RGB, row 0 on top; a zeroed one may be finished */
     size_t width_px, height_px;
     float *rgb; /* owned. PNG: value / 255 or / 65535, as in the file; PFM: as it is */
 };
-/* Reads a .png (8 or 16 bit) or a .pfm, told apart by content; alpha is dropped, grey becomes three
- * equal channels. Refuses over 1 GB of file and over 32768 pixels a side. */
+/* Reads a .png (8 or 16 bit) or a .pfm, distinguished by content; alpha is dropped, grey becomes
+ * three equal channels. Refuses over 1 GB of file and over 32768 pixels a side. */
 bool gn_pixels_load(struct gn_pixels *pixels, const char *path, struct gn_err *err);
 void gn_pixels_finish(struct gn_pixels *pixels);
 

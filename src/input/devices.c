@@ -126,7 +126,7 @@ static void take_event(struct gn_devices *devices, struct gn_device *d, const st
     if (e->type == EV_KEY) gn_keys_set(devices->keys, &d->keys, e->code, e->value, time_ns);
     if (!d->touch.opts.kind) return;
     const bool taps = gn_touch_event(&d->touch, e->type, e->code, e->value, time_ns);
-    if (devices->deaf)
+    if (devices->suppresses_taps)
         d->touch.is_tap = false;
     else if (taps)
         gn_keys_click(devices->keys, GN_KEY_TAP, time_ns);

@@ -55,7 +55,7 @@ struct gn_devices {
     struct gn_reports *reports;
     enum gn_pointers pointers; /* that are opened, too */
     unsigned touch_rotate_deg; /* as in gn_touch_opts */
-    bool deaf;                 /* what begins now is no tap */
+    bool suppresses_taps;      /* a touch that begins now never becomes a tap */
     struct gn_device list[GN_DEVICES_MAX];
     struct gn_touch_moves glass, mouse; /* of all devices, since they were taken */
     int denied;                         /* devices without read permission in the last search */

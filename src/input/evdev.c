@@ -50,7 +50,7 @@ static void set_mask(int fd, uint32_t type, const uint8_t *bits, uint32_t size) 
     (void)ioctl(fd, EVIOCSMASK, &mask); /* kernels before 4.4 lack it */
 }
 
-/* Only what is wanted wakes us: not typing, a pressure, or a pointer that nobody asked for. */
+/* Only what is wanted wakes us: not typing, a pressure, or a pointer that is not wanted. */
 static void set_masks(int fd, const uint8_t *bound, const struct gn_touch_opts *touch) {
     struct gn_touch_abilities want = {0};
     uint8_t types[EV_CNT / 8] = {0};

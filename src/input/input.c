@@ -181,7 +181,9 @@ struct gn_input_moves gn_input_take_moves(struct gn_input *input, int64_t now_ns
     return moves;
 }
 
-void gn_input_deafen(struct gn_input *input, bool deaf) { input->devices.deaf = deaf; }
+void gn_input_suppress_taps(struct gn_input *input, bool suppress) {
+    input->devices.suppresses_taps = suppress;
+}
 
 int gn_input_pointers(const struct gn_input *input) { return gn_devices_pointers(&input->devices); }
 

@@ -63,8 +63,8 @@ struct gn_input_moves { /* by hand, since they were taken */
 };
 /* Call after each step of the loop. Taps are presses of the key "tap". */
 struct gn_input_moves gn_input_take_moves(struct gn_input *input, int64_t now_ns);
-/* A touch or click that begins while it is deaf never becomes a tap. */
-void gn_input_deafen(struct gn_input *input, bool deaf);
+/* While taps are suppressed, a touch or click that begins never becomes a tap. */
+void gn_input_suppress_taps(struct gn_input *input, bool suppress);
 int gn_input_pointers(const struct gn_input *input); /* number of open touch screens and mice */
 /* The next unread line for the log ("button \"next\": held for 30 s; ignored until released"), or
  * false. Each is reported once until it changes. */

@@ -16,7 +16,7 @@
 enum { ENDS = 6 };
 static const int ends[ENDS] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
 
-/* State of the signal handlers, the one mutable global of this program. All functions they call are
+/* State of the signal handlers, which take no argument. All functions that they call are
  * async-signal-safe. */
 static struct {
     volatile sig_atomic_t open, raw; /* raw: the terminal has our settings */

@@ -10,7 +10,7 @@ static const int64_t TAP_NS = GN_NS_PER_S / 2, STUCK_NS = 30 * GN_NS_PER_S;
 static const double SLOP_MM = 3.0;     /* a finger that has moved farther is no tap */
 static const double SLOP_SHARE = .015; /* of the panel, where millimetres are unknown */
 static const double SLOP_COUNTS = 4.0;
-static const double COUNTS_PER_HEIGHT = 1000.0; /* of a mouse, whose resolution is not told */
+static const double COUNTS_PER_HEIGHT = 1000.0; /* of a mouse, whose resolution is unknown */
 static const double LEAST_SPREAD = .01;         /* of the height: nearer fingers do not zoom */
 
 static double range_of(const struct gn_touch_axis *axis) {

@@ -17,7 +17,7 @@ bool gn_touch_has_slots(const struct gn_touch_abilities *a) {
            has(a->abs, ABS_MT_POSITION_Y);
 }
 
-/* As udev tells them apart, whose answers a bare board does not have. */
+/* The rules by which udev distinguishes them; a bare board may have no udev. */
 enum gn_touch_kind gn_touch_kind(const struct gn_touch_abilities *a) {
     const bool touch = has(a->keys, BTN_TOUCH), left = has(a->keys, BTN_LEFT),
                direct = has(a->props, INPUT_PROP_DIRECT),

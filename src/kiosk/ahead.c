@@ -49,9 +49,9 @@ static void fail_place(struct gn_show *s, enum gn_kiosk_event_kind kind, int num
     const struct gn_kiosk_event failed = {
         .kind = kind, .time_ns = gn_loop_now_ns(s->loop), .mode = number, .scene = number};
     const bool of_mode = kind == GN_KIOSK_MODE_FAILED;
-    *(of_mode ? &s->text.problems.mode : &s->text.problems.scene) = number;
-    gn_show_report_problem(s, of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE, why);
-    if (!of_mode) gn_show_follow_content(s, false);
+    *(of_mode ? &s->problems.mode : &s->problems.scene) = number;
+    gn_problem_report(&s->problems, of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE, why);
+    if (!of_mode) gn_parts_loaded(&s->parts, GN_PART_LOAD_SCENE);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
     gn_latency_drop(&s->buttons.latency);
 }
@@ -346,11 +346,11 @@ static void show_wanted(struct gn_show *s, int scene) {
         scenes->shown = scene;
         stage->frame_opts.view.orbit = (struct gn_orbit){0};
         gn_show_take_staged(s);
-        gn_show_follow_content(s, false);
+        gn_parts_loaded(&s->parts, GN_PART_LOAD_SCENE);
     }
     gn_show_enter(s);
-    if (s->text.problems.mode == s->kiosk.shown.mode) gn_show_cure_problem(s, GN_PROBLEM_MODE);
-    if (s->text.problems.scene == scene) gn_show_cure_problem(s, GN_PROBLEM_SCENE);
+    if (s->problems.mode == s->kiosk.shown.mode) gn_problem_cure(&s->problems, GN_PROBLEM_MODE);
+    if (s->problems.scene == scene) gn_problem_cure(&s->problems, GN_PROBLEM_SCENE);
     s->fade.keeps = s->fade.kept = false;
     if (!stage->settings->run.verbose) return;
     printf("mode %s, scene %s\n", s->modes.names[s->kiosk.shown.mode],

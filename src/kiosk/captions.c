@@ -66,7 +66,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
 
     /* captions of changes: a text is set only when it changes */
     const char *error = s->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = gn_show_problem(s);
+    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = gn_problem_last(&s->problems);
     char loading[200];
     const bool loads = !error && is_loading(s, now_ns);
     if (loads) {
@@ -107,7 +107,7 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
         .screen = &s->stage.display.screen,
         .caps = gn_gl_caps(s->stage.gl),
         .uptime_ns = now_ns - s->counts.begun_ns,
-        .board = s->health.summary,
+        .board = gn_parts_board(&s->parts),
     };
     if (t->help[0] || !view->info) {
         t->page.made = false;

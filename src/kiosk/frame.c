@@ -25,7 +25,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         view.old > 0.0f || drawn->old > 0.0f || view.caption != drawn->caption ||
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
-    return moves || differs || gn_show_shifts(s) || gn_show_bar_moves(s) ||
+    return moves || differs || gn_parts_want_frame(&s->parts) || gn_show_bar_moves(s) ||
            gn_truth_wants_frame(s) || gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
@@ -57,12 +57,13 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     gn_show_take_view(s, &view, seen_ns);
     gn_show_write_captions(s, &view, seen_ns);
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
-    const struct gn_schedule_settings *hours = &s->config.options->settings->schedule;
-    s->stage.frame_opts.dimmed = s->hours.dims && !is_bare ? 1.0f - (float)hours->dim_to : 0.0f;
-    if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */
+    gn_parts_add_frame(&s->parts, &s->stage.frame_opts);
+    if (is_bare) { /* this frame */
+        s->stage.frame_opts.captions = NULL;
+        s->stage.frame_opts.dimmed = 0.0f;
+    }
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     gn_show_step_turntable(s, seen_ns, scene_ns);
-    gn_show_shift(s);
     bool left_is_behind = false;
     if (s->split.on && !gn_split_draw_left(s, scene_ns, &left_is_behind, err)) return false;
     if (!(s->truth.on ? gn_truth_draw(s, scene_ns, err)
@@ -76,7 +77,7 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     if (s->fade.keeps) { /* this picture is the start of a fade */
         struct gn_err why = {0};
         if (!gn_gl_keep(s->stage.gl, &why)) {
-            gn_show_report_problem(s, GN_PROBLEM_CONFIG, why.text);
+            gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why.text);
             s->rules.fade_ns = 0; /* disables fades */
         }
         s->fade.keeps = false;
@@ -137,7 +138,7 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
         printf("seen %.1f ms after the edge, as frame %d\n", (double)last.ns * 1e-6, last.frames);
         fflush(stdout);
     }
-    gn_show_stats_frame(&s->stats, drawn_ns - begun_ns);
+    gn_parts_drawn(&s->parts, drawn_ns - begun_ns);
     s->ahead.alone = drawn_ns - begun_ns > 2 * s->stage.display.screen.period_ns;
     return true;
 }

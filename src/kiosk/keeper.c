@@ -13,7 +13,7 @@
 #include "core/thread.h"
 
 struct gn_keeper {
-    struct gn_state_files files;
+    const struct gn_disk *disk;
     char path[PATH_MAX];
     int done; /* an eventfd */
     int older;
@@ -27,10 +27,10 @@ struct gn_keeper {
     struct gn_err err;
 };
 
-struct gn_keeper *gn_keeper_create(const struct gn_state_files *files, const char *path, int older,
+struct gn_keeper *gn_keeper_create(const struct gn_disk *disk, const char *path, int older,
                                    struct gn_err *err) {
     struct gn_keeper *k = gn_xalloc(1, sizeof *k);
-    k->files = *files;
+    k->disk = disk;
     k->older = older;
     snprintf(k->path, sizeof k->path, "%s", path);
     k->done = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
@@ -47,7 +47,7 @@ bool gn_keeper_is_busy(const struct gn_keeper *k) { return k->runs; }
 
 static void save(struct gn_keeper *k) {
     k->err = (struct gn_err){0};
-    k->ok = gn_state_save(&k->files, k->path, k->older, &k->state, &k->err);
+    k->ok = gn_state_save(k->disk, k->path, k->older, &k->state, &k->err);
     if (k->ok) k->older = 1 - k->older;
 }
 

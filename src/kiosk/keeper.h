@@ -7,7 +7,7 @@
 
 struct gn_keeper;
 /* older: as gn_state_read() has it. The path is copied. NULL: fails. */
-struct gn_keeper *gn_keeper_create(const struct gn_state_files *files, const char *path, int older,
+struct gn_keeper *gn_keeper_create(const struct gn_disk *disk, const char *path, int older,
                                    struct gn_err *err);
 int gn_keeper_fd(const struct gn_keeper *keeper); /* readable when gn_keeper_take() has a result */
 bool gn_keeper_is_busy(const struct gn_keeper *keeper); /* started, and not taken */

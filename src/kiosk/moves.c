@@ -33,8 +33,8 @@ void gn_show_wake_by_hand(struct gn_show *s) {
 }
 
 /* That touch is no tap either. */
-void gn_show_deafen(struct gn_show *s) {
-    if (s->buttons.input) gn_input_deafen(s->buttons.input, gn_kiosk_is_dark(&s->kiosk));
+void gn_show_suppress_taps(struct gn_show *s) {
+    if (s->buttons.input) gn_input_suppress_taps(s->buttons.input, gn_kiosk_is_dark(&s->kiosk));
 }
 
 void gn_show_turn_home(struct gn_show *s) {

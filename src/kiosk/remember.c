@@ -85,7 +85,7 @@ void gn_show_recall(struct gn_show *s) {
     struct gn_err err = {0};
     if (strcmp(path, "no") == 0) return;
     snprintf(m->path, sizeof m->path, "%s", path);
-    if (gn_state_read(&gn_state_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
+    if (gn_state_read(&gn_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
         gn_warn(s->warnings, "state: %s; starting as configured", err.text);
     memcpy(m->good[0], m->state.scene, PATH_MAX);
     memcpy(m->good[1], m->state.past, PATH_MAX);
@@ -147,13 +147,13 @@ static void set_due(struct gn_show_memory *m, int64_t now_ns) {
 static void report_failure(struct gn_show *s, const struct gn_err *err) {
     char text[sizeof err->text + 64];
     snprintf(text, sizeof text, "state: %s (it will not outlast a restart)", err->text);
-    gn_show_report_problem(s, GN_PROBLEM_STATE, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_STATE, text);
 }
 
 static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64_t now_ns) {
     struct gn_show_memory *m = &s->memory;
     if (ok)
-        gn_show_cure_problem(s, GN_PROBLEM_STATE);
+        gn_problem_cure(&s->problems, GN_PROBLEM_STATE);
     else
         report_failure(s, err);
     m->changed |= !ok;
@@ -179,11 +179,11 @@ static void take_save(void *user, uint32_t events, int64_t now_ns) {
     if (gn_keeper_take(s->memory.keeper, &ok, &err)) end_save(s, ok, &err, now_ns);
 }
 
-void gn_show_open_memory(struct gn_show *s) {
+static void open_memory(struct gn_show *s) {
     struct gn_show_memory *m = &s->memory;
     struct gn_err err = {0};
     if (!m->path[0]) return;
-    m->keeper = gn_keeper_create(&gn_state_disk, m->path, m->older, &err);
+    m->keeper = gn_keeper_create(&gn_disk, m->path, m->older, &err);
     m->done = (struct gn_watch){.fd = m->keeper ? gn_keeper_fd(m->keeper) : -1,
                                 .events = EPOLLIN,
                                 .call = take_save,
@@ -242,7 +242,7 @@ static bool take_scene(struct gn_show *s) {
     return true;
 }
 
-void gn_show_remember(struct gn_show *s) {
+static void remember(struct gn_show *s) {
     struct gn_show_memory *m = &s->memory;
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     if (!m->keeper) return;
@@ -256,11 +256,11 @@ void gn_show_remember(struct gn_show *s) {
     if (!waits && !gn_keeper_is_busy(m->keeper)) set_due(m, now_ns);
 }
 
-void gn_show_end_memory(struct gn_show *s) {
+static void end_memory(struct gn_show *s) {
     struct gn_show_memory *m = &s->memory;
     struct gn_err err = {0};
     if (!m->keeper) return;
-    gn_show_remember(s);
+    remember(s);
     m->state.runs = s->failed;
     m->state.sequence++;
     if (!gn_keeper_start_last(m->keeper, &m->state, &err)) report_failure(s, &err);
@@ -268,8 +268,53 @@ void gn_show_end_memory(struct gn_show *s) {
     gn_loop_remove_timer(&m->timer);
 }
 
-void gn_show_close_memory(struct gn_show *s) {
+static void close_memory(struct gn_show *s) {
     struct gn_err err = {0};
     if (!gn_keeper_close(s->memory.keeper, END_NS, &err)) report_failure(s, &err);
     s->memory.keeper = NULL;
 }
+
+/* ---- the part -------------------------------------------------------------------------------- */
+
+struct state {
+    const struct gn_part_host *host;
+    const char *file;
+    struct gn_state_counts counts;
+};
+
+static struct gn_show *show_of(const void *part) {
+    return ((const struct state *)part)->host->show;
+}
+
+static void begin_state(void *part) { gn_show_recall(show_of(part)); }
+static void open_state(void *part) { open_memory(show_of(part)); }
+static void look_at_state(void *part) { remember(show_of(part)); }
+static void end_state(void *part) { end_memory(show_of(part)); }
+static void close_state(void *part) { close_memory(show_of(part)); }
+
+static const void *state_status(void *part) {
+    struct state *v = part;
+    const struct gn_show_memory *m = &show_of(part)->memory;
+    v->file = m->path;
+    v->counts = m->state.counts;
+    return m->path[0] ? v : NULL;
+}
+
+static const struct gn_metric metrics[] = {
+    GN_METRIC(struct state, file, "state.file", "", "what outlasts a restart"),
+#define X(id) GN_METRIC(struct state, counts.id, "state." #id, "", "over all starts"),
+    GN_STATE_COUNTS(X)
+#undef X
+};
+
+const struct gn_part gn_part_state = {
+    .name = "state",
+    .size = sizeof(struct state),
+    .begin = begin_state,
+    .open = open_state,
+    .look = look_at_state,
+    .status = state_status,
+    GN_PART_METRICS(metrics),
+    .end = end_state,
+    .close = close_state,
+};

@@ -14,8 +14,6 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     uint32_t without = 0;
     const bool srgb =
         !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
-    /* a still picture must be flipped within a quarter of the watchdog's timeout */
-    const int64_t again_ns = s->service.every_ns * 3 / 4;
     s->context.screen_opts = (struct gn_screen_opts){
         .loop = s->loop,
         .width_px = (uint32_t)o->render.size.width_px,
@@ -35,8 +33,8 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
         .unencoded = !srgb,
         .legacy = o->display.legacy,
         .range = (enum gn_screen_range)o->display.range,
-        .again_ns = again_ns < 10 * GN_NS_PER_S ? again_ns : 0,
     };
+    gn_parts_add_screen(&s->parts, &s->context.screen_opts);
     gn_wake_begin(&wake, o);
     const bool ok = gn_display_open_screen(
         &s->stage.display, s->config.place ? s->config.place->backend : o->display.backend,
@@ -62,25 +60,6 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     f->unencoded = s->context.unencoded = unencoded;
     f->msaa = s->context.msaa = msaa;
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
-}
-
-void gn_show_open_shaders(struct gn_show *s) {
-    struct gn_err why = {0};
-    gn_shader_files_close(&s->shaders);
-    if (!gn_shader_files_open(&s->shaders, s->stage.settings->render.shaders, s->loop, &why))
-        gn_show_report_problem(s, GN_PROBLEM_CONFIG, why.text); /* until a reload */
-}
-
-void gn_show_renew_shaders(struct gn_show *s) {
-    struct gn_err why = {0};
-    if (!s->shaders.changed || !s->stage.gl) return;
-    s->shaders.changed = false;
-    s->changed = true;
-    if (gn_gl_renew_programs(s->stage.gl, &why)) {
-        gn_show_cure_problem(s, GN_PROBLEM_SHADERS); /* the same problem again is news */
-        return;
-    }
-    gn_show_report_problem(s, GN_PROBLEM_SHADERS, why.text);
 }
 
 void gn_show_stop_gl(struct gn_show *s) {
@@ -112,14 +91,14 @@ static void tell_range(struct gn_show *s) {
     if (s->context.lacks_range == lacks) return;
     s->context.lacks_range = lacks;
     if (!lacks) {
-        gn_show_cure_problem(s, GN_PROBLEM_RANGE);
+        gn_problem_cure(&s->problems, GN_PROBLEM_RANGE);
         return;
     }
     snprintf(text, sizeof text,
              "[display] range: %.*s has no property \"Broadcast RGB\", its levels stay as the "
              "driver has them; set them in the monitor's menu",
              (int)strcspn(screen->what, " "), screen->what);
-    gn_show_report_problem(s, GN_PROBLEM_RANGE, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_RANGE, text);
 }
 
 bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {

@@ -124,8 +124,7 @@ static bool use_rays(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
     bool ok;
     if (!t->frame) t->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
     stage->frame = t->frame;
-    stage->frame_opts.shadow.technique = GN_TECHNIQUE_TRUTH;
-    stage->frame_opts.shadow.technique_given = true;
+    GN_LIGHT_SET(&stage->frame_opts.shadow.any, technique, GN_TECHNIQUE_TRUTH);
     stage->frame_opts.msaa = 0;
     if (has_come(t)) {
         stage->truth.given = t->rays;

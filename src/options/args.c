@@ -88,28 +88,18 @@ static bool is_ctl(const struct args *args) {
     return args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_CTL;
 }
 
-enum { PICTURES = 2 }; /* of compare */
-
 static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     const enum gn_command command =
         args->word_count > 0 ? command_of(args->words[0]) : GN_COMMAND_AUTO;
-    const bool takes_list = command == GN_COMMAND_SHOW || command == GN_COMMAND_BENCH,
-               is_compare = command == GN_COMMAND_COMPARE, is_score = command == GN_COMMAND_SCORE;
-    if (is_compare && args->word_count == 1 + PICTURES)
-        return gn_fail_usage(err, "compare: unexpected argument \"%.80s\": it takes two pictures",
-                             word);
-    if (is_ctl(args) && args->word_count == 2 + GN_CTL_WORDS_MAX)
-        return gn_fail_usage(err, "ctl %.80s: unexpected argument \"%.80s\"", args->words[1], word);
-    if (!is_ctl(args) && !is_compare && args->word_count == (takes_list ? 1 + GN_SCENES_MAX : 2))
-        return gn_fail_usage(
-            err,
-            takes_list ? "too many scenes, from \"%.80s\" on"
-            : is_score ? "score: unexpected argument \"%.80s\": it takes one picture or folder"
-            : command == GN_COMMAND_LESSON ? "unexpected argument \"%.80s\": one lesson, or all"
-            : command == GN_COMMAND_TAKE
-                ? "take: unexpected argument \"%.80s\": it takes one folder"
-                : "unexpected argument \"%.80s\": only one scene",
-            word);
+    const struct gn_command_row *row = &gn_commands[command];
+    if (args->word_count > row->most) { /* the first word is the command's own, or a scene */
+        if (command == GN_COMMAND_CTL)
+            gn_fail_usage(err, "ctl %.80s: unexpected argument \"%.80s\"", args->words[1], word);
+        else
+            gn_fail_usage(err, "%s%sunexpected argument \"%.80s\": it takes %s",
+                          row->name ? row->name : "", row->name ? ": " : "", word, row->takes);
+        return false;
+    }
     args->words[args->word_count++] = word;
     return true;
 }
@@ -123,11 +113,13 @@ static bool fail_command(const char *word, struct gn_err *err) {
     if (guess.name)
         return gn_fail_usage(err, "\"%.80s\" is neither a command nor a file; did you mean %s?",
                              word, guess.name);
+    char names[160] = "";
+    size_t used = 0;
+    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT && used < sizeof names; i++)
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s, ", gn_commands[i].name);
     return gn_fail_usage(
-        err,
-        "\"%.80s\" is neither a command nor a file; the commands are show, "
-        "render, bench, inspect, doctor, ctl, compare, score, lesson, bake, take, help, version",
-        word);
+        err, "\"%.80s\" is neither a command nor a file; the commands are %shelp, version", word,
+        names);
 }
 
 static bool split_arguments(struct args *args, struct gn_err *err) {
@@ -177,19 +169,14 @@ static bool choose_command(struct args *args, struct gn_err *err) {
     gn_options_run_as(args->options, command);
     if (bare && first && !strpbrk(first, "./:") && access(first, F_OK) != 0)
         return fail_command(first, err);
+    const struct gn_command_row *row = &gn_commands[command];
     if (bare && args->words[1])
-        return gn_fail_usage(err, "unexpected argument \"%.80s\": only one scene", args->words[1]);
-    if (command == GN_COMMAND_COMPARE && args->word_count != 1 + PICTURES)
-        return gn_fail_usage(err, "compare: expected two pictures, A and B");
-    if (command == GN_COMMAND_LESSON && args->word_count != 2)
-        return gn_fail_usage(err, "lesson: expected list, all or the name of a lesson");
-    if (command == GN_COMMAND_BAKE && args->word_count != 2)
-        return gn_fail_usage(err, "bake: expected one scene");
+        return gn_fail_usage(err, "unexpected argument \"%.80s\": it takes %s", args->words[1],
+                             row->takes);
+    if (!bare && args->word_count <= row->least)
+        return gn_fail_usage(err, "%s: expected %s", row->name, row->takes);
     if (command == GN_COMMAND_TAKE && args->words[1] && find_flag(args, "rollback"))
         return gn_fail_usage(err, "take: --rollback takes no folder: unexpected argument \"%.80s\"",
-                             args->words[1]);
-    if (command == GN_COMMAND_DOCTOR && args->words[1])
-        return gn_fail_usage(err, "doctor takes no scene: unexpected argument \"%.80s\"",
                              args->words[1]);
     return true;
 }
@@ -231,10 +218,9 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     }
     const struct flag *check = find_flag(args, "check");
     const struct flag *named = check ? check : find_flag(args, "config");
-    const bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
-                          (command == GN_COMMAND_TAKE && !find_flag(args, "content")) ||
-                          (command == GN_COMMAND_CTL && !find_flag(args, "socket"));
-    if (!searches || !gn_config_find(found, sizeof found)) found[0] = '\0';
+    const char *unless = gn_commands[command].finds_config;
+    if (!unless || (unless[0] && find_flag(args, unless)) || !gn_config_find(found, sizeof found))
+        found[0] = '\0';
     const char *path = named ? named->text : found;
     const struct flag *content = find_flag(args, "content");
     const bool shows = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW;
@@ -260,13 +246,6 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     return true;
 }
 
-/* Its words are no scenes. */
-static bool takes_words(enum gn_command command) {
-    return command == GN_COMMAND_CTL || command == GN_COMMAND_COMPARE ||
-           command == GN_COMMAND_SCORE || command == GN_COMMAND_LESSON ||
-           command == GN_COMMAND_TAKE;
-}
-
 static bool apply_flags(struct args *args, struct gn_err *err) {
     struct gn_options *options = args->options;
     for (int i = 0; i < args->flag_count; i++) {
@@ -274,7 +253,7 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
         if (!gn_options_set(options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    if (takes_words(command_now(args))) {
+    if (!gn_commands[command_now(args)].of_scenes) {
         const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
         if (!words) return gn_fail(err, "no memory left");
         options->word_count = args->word_count - 1;

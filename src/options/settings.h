@@ -11,7 +11,7 @@
 
 #include "options/schedule.h"
 #include "options/table.h"
-#include "shadow/technique.h"
+#include "shadow/light_opts.h"
 
 struct gn_size {
     int width_px, height_px;
@@ -40,11 +40,6 @@ struct gn_technique_list { /* each once */
     int count;
     uint8_t items[GN_TECHNIQUE_COUNT + 1]; /* enum gn_technique */
 };
-/* --map-format: an encoding for techniques that read the map itself, or moments for those that
- * filter it. */
-#define GN_MAP_FORMAT(encoding, moments) ((int)(encoding) | (int)(moments) << 8)
-#define GN_MAP_FORMAT_ENCODING(format)   ((enum gn_encoding)((format)&0xff))
-#define GN_MAP_FORMAT_MOMENTS(format)    ((enum gn_moments)((format) >> 8))
 enum { GN_MSAA_AUTO = -1 };
 enum { GN_SHOW_SCENE = -1, GN_SHOW_TRANSPARENT = -2, GN_SHOW_SKY = -3 }; /* --background */
 enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR };                  /* --output */

@@ -6,25 +6,24 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum gn_command {
-    GN_COMMAND_AUTO, /* bare `gnomon [SCENE]` */
-    GN_COMMAND_SHOW,
-    GN_COMMAND_RENDER,
-    GN_COMMAND_BENCH,
-    GN_COMMAND_INSPECT,
-    GN_COMMAND_DOCTOR,
-    GN_COMMAND_CTL,
-    GN_COMMAND_COMPARE,
-    GN_COMMAND_SCORE,
-    GN_COMMAND_LESSON,
-    GN_COMMAND_BAKE,
-    GN_COMMAND_TAKE,
-    GN_COMMAND_COUNT,
+#define ROW(ID, ...) GN_COMMAND_##ID,
+enum gn_command { /* AUTO: the bare `gnomon [SCENE]` */
+#include "options/command_rows.h"
+                  GN_COMMAND_COUNT,
 };
+#undef ROW
+enum { GN_COMMAND_EXAMPLES = 2 };
 struct gn_command_row {
-    const char *name;  /* NULL for the bare command */
-    const char *usage; /* what follows `gnomon` */
-    const char *what;  /* a sentence */
+    const char *name;         /* NULL for the bare command */
+    const char *usage;        /* what follows `gnomon` */
+    const char *what;         /* a sentence */
+    int least, most;          /* words after the command's own, and how messages name them: */
+    const char *takes;        /* "one scene" */
+    bool of_scenes;           /* they are scenes; else the command reads them itself */
+    const char *finds_config; /* looks for kiosk.ini: NULL never, "" always, else unless that
+                                 option is given */
+    bool handles_signals;     /* SIGTERM and SIGINT, by itself; else they end the process */
+    const char *examples[GN_COMMAND_EXAMPLES];
 };
 extern const struct gn_command_row gn_commands[GN_COMMAND_COUNT];
 
@@ -79,6 +78,8 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     enum gn_change change;
     bool of_light; /* a key of [light "NAME"], too */
+    size_t target; /* offset in struct gn_light_opts of the field that a light gets: every light, of
+                      section "light" the made one, or that of [light "NAME"]; 0: none */
     bool reopens;  /* a reload that changes it opens the display again */
     size_t offset; /* of its field in struct gn_settings */
 };

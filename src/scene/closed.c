@@ -5,7 +5,7 @@
  * Vertices are welded by position. A surface is closed when every directed edge meets its opposite,
  * which is tested without a table of edges: each adds or takes away a 64-bit hash of its undirected
  * edge, and what is left must be zero. A body is outward when its signed volume is positive; bodies
- * are told apart by union and find over the welded vertices. */
+ * are separated by union-find over the welded vertices. */
 #include <string.h>
 
 #include "core/arena.h"

@@ -18,7 +18,7 @@ void gn_fade_finish(struct gn_fade *fade) {
     free(fade->morph_moves);
 }
 
-/* Along the shorter way, which is not even in speed: from clip to clip nobody sees that. */
+/* Along the shorter way; its speed is not uniform, which is not visible between clips. */
 static void mix_rotation(const float *from, const float *to, float share, float *out) {
     const float dot = from[0] * to[0] + from[1] * to[1] + from[2] * to[2] + from[3] * to[3];
     float length = 0;

@@ -20,8 +20,8 @@ struct gn_pose_item {
     uint64_t hash; /* of all that its vertices depend on */
 };
 
-/* How clips go with the scene's time, but for one that plays over others. Zeroed: each in a loop,
- * at the speed that it has. */
+/* How clips go with the scene's time, except for one that plays over others. Zeroed: each in a
+ * loop, at the speed that it has. */
 struct gn_pose_run {
     enum gn_pose_turns { GN_POSE_LOOP, GN_POSE_ONCE, GN_POSE_PING_PONG } turns;
     double speed_less_1; /* 0: 1; -1: they stand */

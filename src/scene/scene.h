@@ -283,7 +283,7 @@ struct gn_scene_deformation { /* skins and targets of meshes */
     uint64_t delta_texels;          /* of all targets */
     uint32_t column, column_height; /* of the loader: where the next strip goes */
 };
-/* Points that stand for all that is drawn: it lies within their convex hull, but for 2 % of its
+/* Points that stand for all that is drawn: it lies within their convex hull, except for 2 % of its
  * radius. World space. */
 struct gn_extent {
     vec3 *points;

@@ -146,8 +146,8 @@ void gn_values_apply(struct gn_values *v, struct gn_pose *pose) {
         if (record) gn_camera_make((const void *)(v->shown + record - 1), &v->cameras[i]);
     }
     for (uint32_t i = 0; v->materials && i < scene->material_count; i++) {
-        const uint32_t record = v->materials[i].record;
-        if (record) gn_material_make((const void *)(v->shown + record - 1), &v->materials[i]);
+        struct gn_material *m = &v->materials[i];
+        if (m->record) gn_material_make((const void *)(v->shown + m->record - 1), m->moves, m);
     }
 }
 

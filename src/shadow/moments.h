@@ -6,8 +6,8 @@
  * distance itself, 0 at the near end and 1 at the far one.
  *
  * A map knows casters alone, and is the far end where there are none, whatever the eye sees there.
- * Two moments can not tell such a gap from a third distance: so vsm, evsm and vssm average casters
- * alone, and keep beside their moments what share of texels they are. */
+ * Two moments cannot distinguish such a gap from a third distance: so vsm, evsm and vssm average
+ * casters alone, and keep beside their moments what share of texels they are. */
 #ifndef GN_SHADOW_MOMENTS_H
 #define GN_SHADOW_MOMENTS_H
 

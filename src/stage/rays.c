@@ -106,9 +106,10 @@ static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
     if (!check_memory(stage, plan, limits, err)) return false;
     for (uint32_t i = 0; i < rays->count; i++) {
         const uint32_t light = plan->shadows[rays->slots[i]].light;
-        const struct gn_frame_light_opts one = gn_frame_light_opts(&stage->frame_opts, light);
         gn_ray_lamp_init(&rays->lamps[i], &stage->pose, light);
-        if (one.given & GN_LIGHT_RADIUS) rays->lamps[i].radius = (double)one.radius;
+        rays->lamps[i].radius =
+            (double)gn_frame_light_opts(stage->frame, &stage->pose, &stage->frame_opts, light)
+                .radius;
         rays->seen[i] = gn_picture_alloc(pixels, sizeof *rays->seen[i], err);
         if (!rays->seen[i]) return false;
     }

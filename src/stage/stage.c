@@ -165,31 +165,14 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .output_linear = o->render.output == GN_PICTURE_LINEAR,
         .exposure_given = !isnan(o->render.exposure_ev),
         .exposure_ev = isnan(o->render.exposure_ev) ? 0.0f : (float)o->render.exposure_ev,
-        .shadow.encoding = GN_MAP_FORMAT_ENCODING(o->render.map_format),
-        .shadow.moments = GN_MAP_FORMAT_MOMENTS(o->render.map_format),
-        .shadow.map_px = gn_settings_given(o, render.map_px) ? (uint32_t)o->render.map_px : 0,
         .shadow.planar_in_stencil = o->render.planar == GN_PLANAR_STENCIL,
         .shadow.planar_points =
             o->render.planar == GN_PLANAR_SOFT ? (uint32_t)o->render.planar_points : 0,
         .shadow.gather_points =
             continuous || o->run.command == GN_COMMAND_BENCH ? GATHER_POINTS : 0,
         .shadow.clears_near = o->render.map_clears_near,
-        .shadow.faces = o->render.cast_faces,
-        .shadow.specular_given = !isnan(o->render.shadow_specular),
-        .shadow.specular = (float)o->render.shadow_specular,
-        .shadow.bias_given = !isnan(o->render.bias_texels),
-        .shadow.bias_texels = (float)o->render.bias_texels,
-        .shadow.filter_radius_px =
-            isnan(o->render.filter_radius_px) ? 0.0f : (float)o->render.filter_radius_px,
-        .shadow.slide_far_given = !isnan(o->render.slide_far_m),
-        .shadow.slide_far_m = (float)o->render.slide_far_m,
-        .shadow.slide_as_picture = o->render.slide_as_picture,
-        .shadow.cascade_count = (uint32_t)o->render.cascades,
-        .shadow.taps = (unsigned)o->render.taps,
         .shadow.taps_fixed = o->render.taps_fixed,
         .shadow.filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
-        .shadow.strength_given = gn_settings_given(o, render.shadow_strength),
-        .shadow.strength = (float)o->render.shadow_strength,
         .background = background_of(o->render.background),
         .tone = (enum gn_tone)o->render.tone,
         .msaa = o->render.msaa == GN_MSAA_AUTO ? 0 : (uint32_t)o->render.msaa,
@@ -198,13 +181,10 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
     };
     for (int k = 0; k < 3 && f->background == GN_BACKGROUND_COLOR; k++)
         f->background_color[k] = linear_of((unsigned)o->render.background >> (16 - 8 * k) & 255);
-    f->shadow.technique_given = gn_settings_given(o, render.shadow);
-    if (f->shadow.technique_given && o->render.shadow.count == 1) /* bench sets each of a list */
-        f->shadow.technique = (enum gn_technique)o->render.shadow.items[0];
 }
 
 static bool casts_rays(const struct gn_frame_shadow_opts *shadow) {
-    bool any = shadow->technique == GN_TECHNIQUE_TRUTH;
+    bool any = shadow->any.technique == GN_TECHNIQUE_TRUTH;
     for (uint32_t i = 0; i < shadow->light_count; i++)
         any |= shadow->lights[i].technique == GN_TECHNIQUE_TRUTH;
     return any;
@@ -253,8 +233,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
         return false;
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     struct gn_frame_environment_opts *e = &look->frame_opts.environment;
-    e->shows_key = e->of && e->lights_key &&
-                   gn_stage_keeps_key(&look->frame_opts.shadow, o, scene, &e->of->key, e->strength);
+    e->shows_key = e->of && e->lights_key && gn_stage_keeps_key(&look->frame_opts.shadow, o, scene);
     if (look->frame_opts.msaa > 1 && casts_rays(&look->frame_opts.shadow))
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
                              gn_settings_label(o, render.msaa), look->frame_opts.msaa);

@@ -10,7 +10,7 @@ static double apart(const float *a, const float *b) {
                 (double)(a[2] - b[2]) * (a[2] - b[2]));
 }
 
-/* Next to each other on the screen and, but for slant, in the world: within six pixels' size. */
+/* Next to each other on the screen and, except for slant, in the world: within six pixels' size. */
 static bool is_contact(const struct gn_truth *truth, int x, int y) {
     const struct gn_mask_truth *m = &truth->mask;
     static const int step[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};

@@ -168,13 +168,15 @@ static void stage_close(struct stage *s) {
 
 /* Small pictures, where all is seen: what is compiled does not depend on the size. */
 static struct gn_frame_opts opts_of(enum gn_technique technique, enum gn_encoding encoding) {
-    return (struct gn_frame_opts){.width_px = 64,
-                                  .height_px = 48,
-                                  .shadow.technique_given = true,
-                                  .shadow.technique = technique,
-                                  .shadow.encoding = encoding,
-                                  .shadow.map_px = 64,
-                                  .all_seen = true};
+    return (struct gn_frame_opts){
+        .width_px = 64,
+        .height_px = 48,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = technique,
+                       .map_px = 64,
+                       .map_format = GN_MAP_FORMAT(encoding, GN_MOMENTS_NONE)},
+        .all_seen = true};
 }
 
 /* ---- techniques: each with every light and encoding that it can have ------------------------ */
@@ -202,7 +204,8 @@ static void try_encoding(struct bench *b, const struct stage *s, enum gn_techniq
     if (gn_techniques[technique].on_plane) {
         opts.shadow.planar_in_stencil = encoding == GN_ENCODING_STENCIL;
         opts.shadow.planar_points = encoding == GN_ENCODING_MEAN ? 64 : 0;
-        opts.shadow.encoding = GN_ENCODING_AUTO;
+        GN_LIGHT_SET(&opts.shadow.any, map_format,
+                     GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
     }
     const enum gn_light_type type = s->scene->lights[0].type;
     if (draw(b, s, &opts, EVERYTHING, what) && !has_program(b, type, technique, encoding))
@@ -340,7 +343,7 @@ static void try_maps(struct bench *b, enum gn_gpu_scene which) {
                 opts.view.turntable_rad = 0.7f * (float)step;
                 draw(b, &s, &opts, ALL_BUT_LIT, "maps");
             }
-            opts.shadow.faces = 1 + GN_CAST_MIDDLE;
+            GN_LIGHT_SET(&opts.shadow.any, faces, 1 + GN_CAST_MIDDLE);
             if (t == GN_TECHNIQUE_HARD) draw(b, &s, &opts, ALL_BUT_LIT, "maps of middles");
         }
     stage_close(&s);

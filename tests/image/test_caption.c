@@ -49,8 +49,7 @@ static int setup(void **state) {
     stage.scene->light_count = 3;
     opts = (struct gn_frame_opts){.width_px = WIDTH,
                                   .height_px = HEIGHT,
-                                  .shadow.encoding = GN_ENCODING_AUTO,
-                                  .shadow.map_px = 120};
+                                  .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 120}};
     captions = gn_captions_create(&(struct gn_captions_opts){0});
     gn_captions_set(captions, GN_CAPTION_INFO, "gnomon 0.1.0\nFrames: 59.9 a second", 0);
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft \xc3\xa4\xe4\xb8\x80", 0);

@@ -241,7 +241,7 @@ static void a_first_scene_that_fails_late_is_replaced_by_the_last_good_one(void 
         .sequence = 1, .scene = "/none.glb", .runs = true, .boot = "that of another day"};
     struct gn_err err = {0};
     snprintf(last.past, sizeof last.past, "%s", other);
-    assert_true(gn_state_save(&gn_state_disk, in_folder("state"), 0, &last, &err));
+    assert_true(gn_state_save(&gn_disk, in_folder("state"), 0, &last, &err));
     help_write(folder, "gnomon-import", "#!/bin/sh\nsleep 2\nexit 1\n");
     chmod(in_folder("gnomon-import"), 0755);
     remembers = true;

@@ -188,10 +188,10 @@ static void a_touch_of_a_dark_screen_lights_it_and_turns_nothing(void **state) {
     gn_show_act(show, &(struct gn_action){.kind = GN_ACTION_BLANK}, clock_ns);
     run_for(show, SECONDS(1));
     assert_true(gn_kiosk_is_dark(&show->kiosk));
-    assert_true(devices_of(show)->deaf);
+    assert_true(devices_of(show)->suppresses_taps);
     drag(show, &devices_of(show)->glass, .25f, 0);
     assert_false(gn_kiosk_is_dark(&show->kiosk));
-    assert_false(devices_of(show)->deaf);
+    assert_false(devices_of(show)->suppresses_taps);
     assert_true(gn_orbit_is_zero(orbit_of(show)));
     drag(show, &devices_of(show)->glass, .25f, 0);
     assert_turned(show, -M_PI / 4, 0);

@@ -43,14 +43,13 @@ struct soft {
 /* gather: points a frame adds; 0: all. */
 static void begin(struct soft *s, const struct gn_scene *scene, uint32_t points, uint32_t gather) {
     struct gn_err err = {0};
-    s->opts = (struct gn_frame_opts){.width_px = WIDTH,
-                                     .height_px = HEIGHT,
-                                     .debug.aov = GN_AOV_VISIBILITY,
-                                     .shadow.encoding = GN_ENCODING_AUTO,
-                                     .shadow.technique_given = true,
-                                     .shadow.technique = GN_TECHNIQUE_PLANAR,
-                                     .shadow.planar_points = points,
-                                     .shadow.gather_points = gather};
+    s->opts = (struct gn_frame_opts){
+        .width_px = WIDTH,
+        .height_px = HEIGHT,
+        .debug.aov = GN_AOV_VISIBILITY,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique), .technique = GN_TECHNIQUE_PLANAR},
+        .shadow.planar_points = points,
+        .shadow.gather_points = gather};
     gn_pose_init(&s->pose, scene, GN_POSE_DEFAULT);
     if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
     s->frame = gn_frame_create(scene, gn_gl_caps(gl));

@@ -7,6 +7,7 @@
 
 #include "image/shot.h"
 #include "image/table.h"
+#include "shadow/technique.h"
 
 static void quick_rows(struct gn_table *table) {
     for (int i = 0; i < GN_TABLE_SCENES; i++)
@@ -20,23 +21,30 @@ static void quick_rows(struct gn_table *table) {
     gn_table_add(table, "msm", "auto", 1024);
 }
 
+/* Adds a technique with the map formats that its limits hold for. Those that are soft by a filtered
+ * map are measured with the light's size, in test_penumbra; white is noise. */
+static void add_technique(struct gn_table *table, enum gn_technique technique, unsigned map_px) {
+    static const char *const formats[] = {"r16f", "depth", "r16f-raw", "r32ui", "rgba8"};
+    const struct gn_technique_row *row = &gn_techniques[technique];
+    const bool is_filtered = gn_technique_filters_map(technique);
+    if (!row->file || technique == GN_TECHNIQUE_WHITE || (row->soft && is_filtered)) return;
+    if (row->on_plane || is_filtered)
+        gn_table_add(table, row->name, "auto", map_px);
+    else
+        for (int f = 0; f < (technique == GN_TECHNIQUE_HARD ? 5 : 2); f++)
+            gn_table_add(table, row->name, formats[f], map_px);
+}
+
 /* A tile of a point light sees 90 degrees, whatever there is: 256 texels are too few for limits. */
 static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
-    static const char *const formats[] = {"r16f", "depth", "r16f-raw", "r32ui", "rgba8"};
-    static const char *const filters[] = {"pcf",  "pcf2", "pcf3",    "pcf5", "box3",
-                                          "box5", "disk", "poisson", "pcss"};
-    static const char *const moments[] = {"vsm", "evsm", "msm"};
+    static const char *const further[] = {"pcf", "pcf2", "pcf3", "pcf5"};
     static const unsigned maps[] = {1024, 256}, further_maps[] = {512, 2048, 4096};
     for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
-    for (int m = 0; m < (kind == GN_TABLE_POINT ? 1 : 2); m++) {
-        for (int f = 0; f < 5; f++) gn_table_add(table, "hard", formats[f], maps[m]);
-        gn_table_add(table, "planar", "auto", maps[m]);
-        for (int t = 0; t < 3; t++) gn_table_add(table, moments[t], "auto", maps[m]);
-        for (int t = 0; t < 9; t++)
-            for (int f = 0; f < 2; f++) gn_table_add(table, filters[t], formats[f], maps[m]);
-    }
-    for (int m = kind == GN_TABLE_POINT ? 1 : 0; m < 3; m++) /* pcf .. pcf5 */
-        for (int t = 0; t < 4; t++) gn_table_add(table, filters[t], "depth", further_maps[m]);
+    for (int m = 0; m < (kind == GN_TABLE_POINT ? 1 : 2); m++)
+        for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+            add_technique(table, (enum gn_technique)t, maps[m]);
+    for (int m = kind == GN_TABLE_POINT ? 1 : 0; m < 3; m++)
+        for (int t = 0; t < 4; t++) gn_table_add(table, further[t], "depth", further_maps[m]);
 }
 
 /* A spoilt table must not pass: the truth of one scene turned round counts as acne and as leaks. */

@@ -155,8 +155,8 @@ static struct gn_program_key tint(void) {
     return key;
 }
 
-/* What the table of techniques lists, as TECHNIQUE-LIGHT-FORMAT: every technique with every light
- * and the encoding that it gets by itself, hard with all. */
+/* All techniques of the table, as TECHNIQUE-LIGHT-FORMAT: each with every type of light and the
+ * encoding of `auto`, hard with all encodings. */
 static bool write_all(const char *folder, struct gn_err *err) {
     for (int t = GN_TECHNIQUE_HARD; t < GN_TECHNIQUE_COUNT; t++)
         for (int type = 0; type < GN_LIGHT_TYPE_COUNT; type++) {
@@ -194,11 +194,6 @@ int main(int argc, char **argv) {
         struct gn_program_key key;
     } programs[] = {
         {"none", lit(FULL, GN_LIGHT_DIRECTIONAL, "none", "depth")},
-        {"hard", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "r16f")},
-        {"hard-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "depth")},
-        {"hard-r32ui", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "r32ui")},
-        {"hard-rgba8", lit(FULL, GN_LIGHT_DIRECTIONAL, "hard", "rgba8")},
-        {"pcf", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-normal-map",
          lit(FULL | GN_FEATURE(NORMAL_TEXTURE), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
         {"pcf-skin", lit(FULL | GN_FEATURE(SKIN), GN_LIGHT_DIRECTIONAL, "pcf", "depth")},
@@ -229,27 +224,12 @@ int main(int argc, char **argv) {
          with_cascades(lit(FULL | GN_FEATURE(ALPHA_MASK), GN_LIGHT_DIRECTIONAL, "pcf", "depth"))},
         {"pcf3-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth"))},
         {"pcss-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "r16f"))},
-        {"pcf2", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf2", "depth")},
-        {"pcf3", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf3", "depth")},
-        {"pcf5", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf5", "depth")},
-        {"box3", lit(FULL, GN_LIGHT_DIRECTIONAL, "box3", "depth")},
-        {"box5", lit(FULL, GN_LIGHT_DIRECTIONAL, "box5", "depth")},
-        {"disk", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "r16f")},
         {"disk-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "disk", "depth")},
-        {"poisson", lit(FULL, GN_LIGHT_DIRECTIONAL, "poisson", "r16f")},
-        {"white", lit(FULL, GN_LIGHT_DIRECTIONAL, "white", "r16f")},
-        {"pcss", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "r16f")},
         {"pcss-depth", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcss", "depth")},
-        {"pcss-spot", lit(FULL, GN_LIGHT_SPOT, "pcss", "r16f")},
         {"pcf-r16f", lit(FULL, GN_LIGHT_DIRECTIONAL, "pcf", "r16f")},
-        {"pcf-spot", lit(FULL, GN_LIGHT_SPOT, "pcf", "depth")},
         {"pcf-spot-slide", with_slide(lit(FULL, GN_LIGHT_SPOT, "pcf", "depth"), GN_SLIDE_DARK)},
         {"none-spot", lit(FULL, GN_LIGHT_SPOT, "none", "depth")},
         {"none-spot-slide", with_slide(lit(FULL, GN_LIGHT_SPOT, "none", "depth"), GN_SLIDE_DARK)},
-        {"hard-spot", lit(FULL, GN_LIGHT_SPOT, "hard", "r16f")},
-        {"planar", lit(FULL, GN_LIGHT_DIRECTIONAL, "planar", "auto")},
-        {"planar-soft", lit(FULL, GN_LIGHT_DIRECTIONAL, "planar", "mean")},
-        {"planar-point", lit(FULL, GN_LIGHT_POINT, "planar", "auto")},
         {"map-depth", caster(GN_PROGRAM_DEPTH, 0, GN_ENCODING_DEPTH)},
         {"map-depth-middle", caster(GN_PROGRAM_DEPTH, GN_FEATURE(MIDDLE), GN_ENCODING_DEPTH)},
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},
@@ -267,7 +247,6 @@ int main(int argc, char **argv) {
         {"vssm-columns", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMNS)},
         {"vssm-column-sums", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMN_SUMS)},
         {"vssm-add", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ADD)},
-        {"cone", lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f")},
         {"cone-8", with_rings(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"), 2)},
         {"cone-16", with_rings(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"), 4)},
         {"cone-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"))},

@@ -55,18 +55,18 @@ static void test_what_begins_while_it_is_deaf_is_no_tap(void **state) {
     (void)state;
     plug_glass(0);
     open_for_touches();
-    gn_input_deafen(input, true);
+    gn_input_suppress_taps(input, true);
     finger(0, 1, 500, start_ns + 10 * MS);
     dispatch(20 * MS);
-    gn_input_deafen(input, false);
+    gn_input_suppress_taps(input, false);
     finger(0, -1, 0, start_ns + 60 * MS);
     dispatch(70 * MS);
-    gn_input_deafen(input, true);
+    gn_input_suppress_taps(input, true);
     finger(0, 2, 500, start_ns + 110 * MS); /* both in one step */
     finger(0, -1, 0, start_ns + 120 * MS);
     dispatch(130 * MS);
     assert_nothing();
-    gn_input_deafen(input, false);
+    gn_input_suppress_taps(input, false);
     finger(0, 3, 500, start_ns + 210 * MS);
     finger(0, -1, 0, start_ns + 220 * MS);
     dispatch(230 * MS);

@@ -2,6 +2,7 @@
 #include "unit/check.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,13 +22,9 @@ static struct slow {
     int reason; /* of a create that fails; 0: none does */
 } disk;
 
-static ssize_t read_file(void *user, const char *path, char *out, size_t size) {
-    (void)user, (void)path, (void)out, (void)size;
-    errno = ENOENT;
-    return -1;
-}
-static int create(void *user, const char *path) {
-    (void)user, (void)path;
+static int open_file(void *user, int folder, const char *name, int flags, mode_t mode) {
+    (void)user, (void)folder, (void)name, (void)mode;
+    if (flags & O_DIRECTORY) return 2000;
     disk.size = 0;
     errno = disk.reason;
     return disk.reason ? -1 : 1000;
@@ -40,30 +37,21 @@ static ssize_t write_data(void *user, int fd, const void *data, size_t size) {
 }
 static int flush(void *user, int fd) {
     char byte;
-    (void)user, (void)fd;
-    return read(disk.pipe[0], &byte, 1) == 1 ? 0 : -1;
+    (void)user;
+    return fd == 2000 || read(disk.pipe[0], &byte, 1) == 1 ? 0 : -1;
 }
 static int close_fd(void *user, int fd) {
     (void)user, (void)fd;
     return 0;
 }
-static int rename_to(void *user, const char *from, const char *to) {
-    (void)user, (void)from;
+static int rename_to(void *user, int folder, const char *from, const char *to) {
+    (void)user, (void)folder, (void)from;
     memcpy(disk.text[strcmp(to, "s.2") == 0], disk.fresh, sizeof disk.fresh);
     return 0;
 }
-static int flush_folder(void *user, const char *path) {
-    (void)user, (void)path;
-    return 0;
-}
 
-static const struct gn_state_files files = {.read_file = read_file,
-                                            .create = create,
-                                            .write = write_data,
-                                            .fsync = flush,
-                                            .close = close_fd,
-                                            .rename = rename_to,
-                                            .fsync_folder = flush_folder};
+static const struct gn_disk calls = {
+    .open = open_file, .write = write_data, .fsync = flush, .close = close_fd, .rename = rename_to};
 
 static void let_go(void) { assert_int_equal(write(disk.pipe[1], "x", 1), 1); }
 
@@ -79,7 +67,7 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
     (void)state;
     bool ok = false;
     struct gn_state s = {.sequence = 7, .mode = "A"};
-    struct gn_keeper *keeper = gn_keeper_create(&files, "s", 1, &err);
+    struct gn_keeper *keeper = gn_keeper_create(&calls, "s", 1, &err);
     assert_int_equal(pipe(disk.pipe), 0);
     assert_non_null(keeper);
     assert_true(gn_keeper_start(keeper, &s, &err)); /* or this test does not go on */
@@ -104,7 +92,7 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
     disk.reason = ENOSPC;
     assert_true(gn_keeper_start(keeper, &s, &err));
     assert_false(finish(keeper));
-    assert_non_null(strstr(err.text, "s.new: cannot write: No space left"));
+    assert_non_null(strstr(err.text, "s.2: cannot write: No space left"));
     disk.reason = 0;
     s.sequence = 9;
     assert_true(gn_keeper_start(keeper, &s, &err));
@@ -121,23 +109,23 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
 static void the_end_waits_for_a_disk_but_not_for_long(void **state) {
     (void)state;
     struct gn_state s = {.sequence = 11};
-    struct gn_keeper *keeper = gn_keeper_create(&files, "s", 1, &err);
+    struct gn_keeper *keeper = gn_keeper_create(&calls, "s", 1, &err);
     assert_true(gn_keeper_start_last(keeper, &s, &err));
     let_go();
     assert_true(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
     assert_non_null(strstr(disk.text[1], "sequence 11\n"));
 
     /* the file of a save that fails at the end is named */
-    keeper = gn_keeper_create(&files, "s", 1, &err);
+    keeper = gn_keeper_create(&calls, "s", 1, &err);
     disk.reason = EROFS;
     assert_true(gn_keeper_start_last(keeper, &s, &err));
     assert_false(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
-    assert_non_null(strstr(err.text, "s.new: cannot write: Read-only"));
+    assert_non_null(strstr(err.text, "s.2: cannot write: Read-only"));
     disk.reason = 0;
 
     /* it does not answer: the thread keeps what it works on */
     err = (struct gn_err){0};
-    keeper = gn_keeper_create(&files, "s", 1, &err);
+    keeper = gn_keeper_create(&calls, "s", 1, &err);
     assert_true(gn_keeper_start_last(keeper, &s, &err));
     const int64_t begun_ns = gn_clock_monotonic_ns();
     assert_false(gn_keeper_close(keeper, GN_NS_PER_S / 20, &err));

@@ -354,8 +354,8 @@ static void help_lists_what_the_parser_takes_and_nothing_else(void **state) {
 static void the_examples_of_the_help_are_right(void **state) {
     (void)state;
     for (int command = 0; command < GN_COMMAND_COUNT; command++)
-        for (int i = 0; i < GN_HELP_EXAMPLES; i++) {
-            const char *line = gn_help_examples[command][i];
+        for (int i = 0; i < GN_COMMAND_EXAMPLES; i++) {
+            const char *line = gn_commands[command].examples[i];
             if (strstr(line, ".ini")) continue; /* there is no such file */
             assert_memory_equal(line, "gnomon", 6);
             if (!parse(line + 6)) fail_msg("%s: %s", line, err.text);
