@@ -102,14 +102,21 @@ static void test_cubic(void **state) {
 }
 
 static void test_rotation_takes_the_short_way(void **state) {
+    static const float none[3][4] = {{0, 0, 0, -1}, {0, 0, 0, -1}, {0, 0, 0, -1}};
     (void)state;
     animate("rotation", TURN, "LINEAR");
-    load(GN_POSE_DEFAULT);
+    animate("rotation", gn_maker_accessor(&maker, "VEC4", 5126, 3, none, sizeof none, NULL),
+            "LINEAR");
+    load(0);
     gn_pose_step(&pose, GN_NS_PER_S / 2); /* 45 degrees about y: x goes to (c, 0, -s) */
     assert_true(fabsf(pose.world_from_node[0][0][0] - .70710678f) < 1e-5f);
     assert_true(fabsf(pose.world_from_node[0][0][2] + .70710678f) < 1e-5f);
     gn_pose_step(&pose, GN_NS_PER_S * 3 / 2); /* 90 to 180, the second given by its negative */
     assert_true(fabsf(pose.world_from_node[0][0][0] + .70710678f) < 1e-5f);
+    gn_pose_choose_fading(&pose, 1, -1); /* to none, given by its negative */
+    pose.fade = .5f;
+    gn_pose_step(&pose, GN_NS_PER_S * 3 / 2);
+    assert_float_equal(pose.world_from_node[0][0][0], cos(3 * M_PI / 8), 1e-5);
 }
 
 static void test_time_is_exact_after_years(void **state) {
