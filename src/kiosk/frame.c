@@ -34,7 +34,8 @@ static void fill_screenshot(struct gn_show *s, struct gn_screenshot *shot) {
     const struct gn_frame_opts *f = &s->stage.frame_opts;
     struct gn_err err = {0};
     if (!shot || !gn_screenshot_is_asked(shot)) return;
-    uint8_t *rgba = gn_screenshot_begin(shot, f->width_px, f->height_px, f->turn_deg, &err);
+    uint8_t *rgba = gn_screenshot_begin(shot, f->output.width_px, f->output.height_px,
+                                        f->output.turn_deg, &err);
     if (!rgba || !gn_gl_read_rgba8(s->stage.gl, rgba, &err) || !gn_screenshot_start(shot, &err))
         gn_screenshot_fail(shot, &err);
 }
@@ -58,8 +59,9 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     gn_show_write_captions(s, &view, seen_ns);
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
     const struct gn_schedule_settings *hours = &s->config.options->settings->schedule;
-    s->stage.frame_opts.dimmed = s->hours.dims && !is_bare ? 1.0f - (float)hours->dim_to : 0.0f;
-    if (is_bare) s->stage.frame_opts.captions = NULL; /* for this frame */
+    s->stage.frame_opts.cover.dimmed =
+        s->hours.dims && !is_bare ? 1.0f - (float)hours->dim_to : 0.0f;
+    if (is_bare) s->stage.frame_opts.cover.captions = NULL; /* for this frame */
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     gn_show_step_turntable(s, seen_ns, scene_ns);
     gn_show_shift(s);

@@ -159,6 +159,7 @@ void gn_show_enter(struct gn_show *s) {
     const struct gn_frame_opts before = s->stage.frame_opts;
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
     s->stage.frame_opts = look->frame_opts;
+    s->stage.frame_opts.output = before.output; /* the screen's */
     if (look->frame_opts.view.camera == before.view.camera)
         s->stage.frame_opts.view.orbit = before.view.orbit;
     /* the last frame is of the time at which it is seen, which may be later */

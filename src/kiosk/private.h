@@ -45,11 +45,9 @@ struct gn_show_config {
 /* The screen's context, and what frames are drawn with in it. */
 struct gn_show_context {
     struct gn_screen_opts screen_opts;
-    uint32_t generation; /* of the context that stage.gl lives in; 0: none */
-    bool message;        /* the screen shows a text in place of pictures */
-    bool lacks_range;    /* and a problem says so */
-    bool unencoded;      /* as frames are drawn now */
-    uint32_t msaa;
+    uint32_t generation;     /* of the context that stage.gl lives in; 0: none */
+    bool message;            /* the screen shows a text in place of pictures */
+    bool lacks_range;        /* and a problem says so */
     uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
     int64_t checked_ns;      /* which was then */
 };

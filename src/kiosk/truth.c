@@ -86,8 +86,8 @@ static void follow(struct gn_show *s) {
     memset(&now, 0, sizeof now); /* with the gaps, for they are compared */
     memcpy(&now.view, &f->view, sizeof now.view);
     now.time_ns = s->stage.pose.time_ns;
-    now.width_px = f->width_px;
-    now.height_px = f->height_px;
+    now.width_px = f->output.width_px;
+    now.height_px = f->output.height_px;
     now.mode = s->kiosk.shown.mode;
     now.turns = s->stage.pose.run.turns;
     now.speed_less_1 = s->stage.pose.run.speed_less_1;
@@ -126,7 +126,7 @@ static bool use_rays(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
     stage->frame = t->frame;
     stage->frame_opts.shadow.technique = GN_TECHNIQUE_TRUTH;
     stage->frame_opts.shadow.technique_given = true;
-    stage->frame_opts.msaa = 0;
+    stage->frame_opts.output.msaa = 0;
     if (has_come(t)) {
         stage->truth.given = t->rays;
         ok = gn_stage_draw(stage, time_ns, s->warnings, err);

@@ -41,8 +41,8 @@ int help_lamp_unload(void **state) {
 
 const struct gn_plan *help_lamp_draw(int camera, int technique, int encoding, int width_px,
                                      int height_px) {
-    struct gn_frame_opts opts = {.width_px = (uint32_t)width_px,
-                                 .height_px = (uint32_t)height_px,
+    struct gn_frame_opts opts = {.output.width_px = (uint32_t)width_px,
+                                 .output.height_px = (uint32_t)height_px,
                                  .view.camera = camera,
                                  .shadow.technique_given = true,
                                  .shadow.technique = (enum gn_technique)technique,

@@ -91,8 +91,8 @@ static void set_bands(const struct gn_shadow_view *view) {
 static const struct gn_shadow_view *draw_visibility(enum gn_technique technique,
                                                     enum gn_encoding encoding, uint32_t cascades,
                                                     struct gn_picture *shot) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                       .height_px = HEIGHT_PX,
+    const struct gn_frame_opts opts = {.output.width_px = WIDTH_PX,
+                                       .output.height_px = HEIGHT_PX,
                                        .shadow.technique_given = true,
                                        .shadow.technique = technique,
                                        .shadow.encoding = encoding,
@@ -229,8 +229,8 @@ static struct gn_orbit orbit_at(int eye) {
 }
 
 static void draw_maps(enum gn_encoding encoding, int eye) {
-    const struct gn_frame_opts opts = {.width_px = 160,
-                                       .height_px = 90,
+    const struct gn_frame_opts opts = {.output.width_px = 160,
+                                       .output.height_px = 90,
                                        .shadow.technique_given = true,
                                        .shadow.technique = GN_TECHNIQUE_PCF,
                                        .shadow.encoding = encoding,
@@ -335,8 +335,8 @@ static void test_depth_maps_move_by_whole_texels(void **state) {
 static void test_beside_a_tile_all_is_clear(void **state) {
     (void)state;
     for (uint32_t cascades = 4; cascades >= 2; cascades--) {
-        const struct gn_frame_opts opts = {.width_px = 160,
-                                           .height_px = 90,
+        const struct gn_frame_opts opts = {.output.width_px = 160,
+                                           .output.height_px = 90,
                                            .shadow.technique_given = true,
                                            .shadow.technique = GN_TECHNIQUE_PCSS,
                                            .shadow.encoding = GN_ENCODING_R32UI,
@@ -364,8 +364,8 @@ static void test_a_moving_eye_makes_nothing(void **state) {
         float least_px = INFINITY, most_px = 0.0f;
         uint64_t objects = 0;
         for (int eye = 0; eye < EYES; eye++) {
-            const struct gn_frame_opts opts = {.width_px = 160,
-                                               .height_px = 90,
+            const struct gn_frame_opts opts = {.output.width_px = 160,
+                                               .output.height_px = 90,
                                                .shadow.technique_given = true,
                                                .shadow.technique = techniques[t],
                                                .shadow.map_px = SMALL_PX,

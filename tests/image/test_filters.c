@@ -59,8 +59,8 @@ static void test_a_box_is_a_straight_ramp(void **state) {
     struct gn_err err = {0};
     help_stage_open(&stage, make_edge, "egl", NULL, NULL);
     for (int i = 0; i < 2; i++) {
-        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                           .height_px = HEIGHT_PX,
+        const struct gn_frame_opts opts = {.output.width_px = WIDTH_PX,
+                                           .output.height_px = HEIGHT_PX,
                                            .shadow.technique_given = true,
                                            .shadow.technique = boxes[i].technique,
                                            .shadow.encoding = GN_ENCODING_AUTO,
@@ -126,8 +126,8 @@ static void test_white_noise_is_white(void **state) {
     float *const pictures[] = {white, disk, fixed};
     help_stage_open(&stage, make_edge, "egl", NULL, NULL);
     for (int i = 0; i < 3; i++) {
-        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                           .height_px = HEIGHT_PX,
+        const struct gn_frame_opts opts = {.output.width_px = WIDTH_PX,
+                                           .output.height_px = HEIGHT_PX,
                                            .shadow.technique_given = true,
                                            .shadow.technique =
                                                i == 1 ? GN_TECHNIQUE_DISK : GN_TECHNIQUE_WHITE,
@@ -158,8 +158,8 @@ static double width_of_vsm(struct help_stage *stage, enum gn_moments moments, in
     struct gn_err err = {0};
     double sum = 0;
     for (uint32_t i = 0; i < SIZES; i++) {
-        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                           .height_px = HEIGHT_PX,
+        const struct gn_frame_opts opts = {.output.width_px = WIDTH_PX,
+                                           .output.height_px = HEIGHT_PX,
                                            .shadow.technique_given = true,
                                            .shadow.technique = GN_TECHNIQUE_VSM,
                                            .shadow.encoding = GN_ENCODING_AUTO,
@@ -254,8 +254,8 @@ static struct gn_scene *make_cubes(void) {
 enum { MAP_PX = 256, TEXELS_MAX = 6 * MAP_PX * MAP_PX };
 
 static struct gn_frame_opts map_opts(enum gn_encoding encoding) {
-    return (struct gn_frame_opts){.width_px = 160,
-                                  .height_px = 120,
+    return (struct gn_frame_opts){.output.width_px = 160,
+                                  .output.height_px = 120,
                                   .shadow.technique_given = true,
                                   .shadow.technique = GN_TECHNIQUE_HARD,
                                   .shadow.encoding = encoding,

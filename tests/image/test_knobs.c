@@ -37,8 +37,8 @@ static int close_all(void **state) {
 }
 
 static struct gn_frame_opts opts_of(enum gn_technique technique) {
-    return (struct gn_frame_opts){.width_px = WIDTH_PX,
-                                  .height_px = HEIGHT_PX,
+    return (struct gn_frame_opts){.output.width_px = WIDTH_PX,
+                                  .output.height_px = HEIGHT_PX,
                                   .shadow.technique_given = true,
                                   .shadow.technique = technique,
                                   .shadow.encoding = GN_ENCODING_AUTO,
@@ -189,7 +189,7 @@ static void test_highlights_stay_in_shadow_as_told(void **state) {
     double sums[3] = {0}; /* red of all pixels in shadow: as the rest, .302, none */
     float *lit = gn_xalloc(4 * PIXELS, sizeof *lit);
     opts.debug.aov = GN_AOV_COLOR;
-    opts.output_linear = opts.output_float = true;
+    opts.output.linear = opts.output.floats = true;
     opts.exposure_given = true;
     opts.shadow.strength_given = true;
     opts.shadow.strength = 0.0f;

@@ -117,8 +117,8 @@ static const enum gn_technique techniques[] = {
 enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
 
 static const struct gn_shadow_view *draw(enum gn_technique technique) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH,
-                                       .height_px = HEIGHT,
+    const struct gn_frame_opts opts = {.output.width_px = WIDTH,
+                                       .output.height_px = HEIGHT,
                                        .shadow.technique_given = true,
                                        .shadow.technique = technique,
                                        .shadow.encoding = GN_ENCODING_AUTO,

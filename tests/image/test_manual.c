@@ -58,8 +58,8 @@ static int close_all(void **state) {
 }
 
 static struct gn_frame_opts opts_of(enum gn_technique technique) {
-    return (struct gn_frame_opts){.width_px = WIDTH_PX,
-                                  .height_px = HEIGHT_PX,
+    return (struct gn_frame_opts){.output.width_px = WIDTH_PX,
+                                  .output.height_px = HEIGHT_PX,
                                   .shadow.technique_given = true,
                                   .shadow.technique = technique,
                                   .shadow.encoding = GN_ENCODING_AUTO,

@@ -59,8 +59,8 @@ static struct gn_orbit orbit_at(int path, int step) {
 }
 
 static void draw_map(enum gn_encoding encoding, const struct gn_orbit *orbit, struct shot *shot) {
-    struct gn_frame_opts opts = {.width_px = 80,
-                                 .height_px = 120,
+    struct gn_frame_opts opts = {.output.width_px = 80,
+                                 .output.height_px = 120,
                                  .shadow.technique_given = true,
                                  .shadow.technique = GN_TECHNIQUE_HARD,
                                  .shadow.encoding = encoding,
@@ -231,8 +231,8 @@ static uint32_t draws_of(struct gn_frame_opts *opts) {
 
 static void test_a_still_scene_makes_no_map_and_no_cones(void **state) {
     (void)state;
-    struct gn_frame_opts opts = {.width_px = 80,
-                                 .height_px = 120,
+    struct gn_frame_opts opts = {.output.width_px = 80,
+                                 .output.height_px = 120,
                                  .shadow.technique_given = true,
                                  .shadow.technique = GN_TECHNIQUE_CONE,
                                  .shadow.map_px = MAP_PX};

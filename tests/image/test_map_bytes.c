@@ -54,8 +54,8 @@ static void all_that_is_allocated_is_counted(void **state) {
             for (int e = 0; e <= GN_ENCODING_AUTO; e++)
                 for (int m = 0; m < GN_MOMENTS_COUNT; m++)
                     for (int k = 0; k < 6; k++) {
-                        struct gn_frame_opts opts = {.width_px = 64,
-                                                     .height_px = 64,
+                        struct gn_frame_opts opts = {.output.width_px = 64,
+                                                     .output.height_px = 64,
                                                      .shadow.technique_given = true,
                                                      .shadow.technique = (enum gn_technique)t,
                                                      .shadow.encoding = (enum gn_encoding)e,

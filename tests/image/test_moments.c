@@ -65,8 +65,8 @@ enum { WIDTH = 960, HEIGHT = 720 };
 static float picture[4 * WIDTH * HEIGHT];
 
 static const struct gn_plan *draw(enum gn_technique technique, enum gn_moments moments) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH,
-                                       .height_px = HEIGHT,
+    const struct gn_frame_opts opts = {.output.width_px = WIDTH,
+                                       .output.height_px = HEIGHT,
                                        .shadow.technique_given = true,
                                        .shadow.technique = technique,
                                        .shadow.encoding = GN_ENCODING_AUTO,
@@ -243,8 +243,8 @@ static void test_no_texel_is_anything_but_a_number(void **state) {
     help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     for (int n = 0; n < frames; n++) {
         const int light = n % 3;
-        struct gn_frame_opts opts = {.width_px = W,
-                                     .height_px = H,
+        struct gn_frame_opts opts = {.output.width_px = W,
+                                     .output.height_px = H,
                                      .shadow.technique_given = true,
                                      .shadow.technique = GN_TECHNIQUE_VSM + n / 3 % 3,
                                      .shadow.encoding = GN_ENCODING_AUTO,
@@ -290,8 +290,8 @@ static void test_mipmaps_are_means_of_the_map(void **state) {
     (void)state;
     enum { SIDE = 256 };
     static float whole[4 * SIDE * SIDE], half[4 * SIDE * SIDE / 4];
-    const struct gn_frame_opts opts = {.width_px = 64,
-                                       .height_px = 48,
+    const struct gn_frame_opts opts = {.output.width_px = 64,
+                                       .output.height_px = 48,
                                        .shadow.technique_given = true,
                                        .shadow.technique = GN_TECHNIQUE_VSM,
                                        .shadow.encoding = GN_ENCODING_AUTO,
@@ -331,8 +331,8 @@ static void test_a_still_scene_is_filtered_once(void **state) {
     (void)state;
     help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     for (int t = GN_TECHNIQUE_VSM; t <= GN_TECHNIQUE_MSM; t++) {
-        const struct gn_frame_opts opts = {.width_px = 64,
-                                           .height_px = 48,
+        const struct gn_frame_opts opts = {.output.width_px = 64,
+                                           .output.height_px = 48,
                                            .shadow.technique_given = true,
                                            .shadow.technique = (enum gn_technique)t,
                                            .shadow.encoding = GN_ENCODING_AUTO,

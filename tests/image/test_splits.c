@@ -51,8 +51,8 @@ static void read_picture(float *to) {
 }
 
 static const struct gn_plan *draw(enum gn_technique technique, enum gn_aov what, float *to) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                       .height_px = HEIGHT_PX,
+    const struct gn_frame_opts opts = {.output.width_px = WIDTH_PX,
+                                       .output.height_px = HEIGHT_PX,
                                        .shadow.technique_given = true,
                                        .shadow.technique = technique,
                                        .shadow.encoding = GN_ENCODING_AUTO,

@@ -39,8 +39,8 @@ static int close_all(void **state) {
 }
 
 static const struct gn_plan *draw(enum gn_technique technique, uint32_t map_px) {
-    const struct gn_frame_opts opts = {.width_px = 64,
-                                       .height_px = 48,
+    const struct gn_frame_opts opts = {.output.width_px = 64,
+                                       .output.height_px = 48,
                                        .shadow.technique_given = true,
                                        .shadow.technique = technique,
                                        .shadow.encoding = GN_ENCODING_AUTO,
@@ -231,8 +231,8 @@ enum { WIDTH = 64, HEIGHT = 48 };
 
 static void check_frame(enum gn_technique technique, int light) {
     static float picture[WIDTH * HEIGHT][4];
-    const struct gn_frame_opts opts = {.width_px = WIDTH,
-                                       .height_px = HEIGHT,
+    const struct gn_frame_opts opts = {.output.width_px = WIDTH,
+                                       .output.height_px = HEIGHT,
                                        .shadow.technique_given = true,
                                        .shadow.technique = technique,
                                        .shadow.encoding = GN_ENCODING_AUTO,
