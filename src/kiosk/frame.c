@@ -14,7 +14,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     if (view.dark && s->drawn.dark) return false; /* black stays black */
-    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.fade < 1 ||
+    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.at.fade < 1 ||
                        (!view.stands && (view.clip >= 0 || !gn_pose_stands(&s->stage.pose) ||
                                          gn_show_turntable_moves(s)));
     const struct gn_kiosk_view *drawn = &s->drawn;

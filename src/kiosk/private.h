@@ -228,7 +228,7 @@ struct gn_show {
     struct gn_show_ahead ahead;
     struct gn_show_fade fade;
     const struct gn_scene *clips_of; /* whose pose was chosen last: another one's was not seen */
-    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.fade */
+    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.at.fade */
     struct gn_show_counts counts;
     struct gn_show_stats stats;
     struct gn_shader_files shaders;

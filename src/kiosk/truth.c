@@ -85,19 +85,10 @@ static void follow(struct gn_show *s) {
     struct gn_truth_of now;
     memset(&now, 0, sizeof now); /* with the gaps, for they are compared */
     memcpy(&now.view, &f->view, sizeof now.view);
-    now.time_ns = s->stage.pose.time_ns;
+    now.moment = s->stage.pose.at;
     now.width_px = f->output.width_px;
     now.height_px = f->output.height_px;
     now.mode = s->kiosk.shown.mode;
-    now.turns = s->stage.pose.run.turns;
-    now.speed_less_1 = s->stage.pose.run.speed_less_1;
-    now.start_ns = s->stage.pose.run.start_ns;
-    now.begun_ns = s->stage.pose.begun_ns;
-    now.clips = s->stage.pose.clips;
-    now.over = s->stage.pose.over;
-    now.over_ns = s->stage.pose.over_ns;
-    now.fade = s->stage.pose.fade;
-    now.variant = s->stage.pose.variant;
     if (memcmp(&now, &t->of, sizeof now) == 0) return;
     gn_truth_drop(s);
     memcpy(&t->of, &now, sizeof now);

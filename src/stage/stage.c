@@ -273,7 +273,7 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     stage->frame_opts = look.frame_opts;
     gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_choose_variant(&stage->pose, look.variant);
-    stage->pose.run = look.run;
+    stage->pose.at.run = look.run;
     gn_pose_step(&stage->pose, settings->scene.time_ns);
     gn_stage_aim(&stage->pose, &stage->frame_opts, settings);
     return true;
