@@ -163,7 +163,7 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
     const struct gn_size size = o->render.size;
     const uint32_t msaa =
         gn_stage_msaa(&b->stage, (uint32_t)size.width_px, (uint32_t)size.height_px, false);
-    for (uint32_t i = 0; i < b->report->run_count; i++) b->entries[i].opts.msaa = msaa;
+    for (uint32_t i = 0; i < b->report->run_count; i++) b->entries[i].opts.output.msaa = msaa;
     uint8_t *rgba = gn_picture_alloc(
         (size_t)o->render.size.width_px * (size_t)o->render.size.height_px, 4, err);
     bool ok =

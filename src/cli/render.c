@@ -162,22 +162,22 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
         return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->run.out);
 
     bool ok = gn_stage_load(&r.stage, o, warnings, err);
-    r.stage.frame_opts.keeps_alpha = r.format == GN_PICTURE_PNG;
-    r.stage.frame_opts.output_float = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
+    r.stage.frame_opts.output.keeps_alpha = r.format == GN_PICTURE_PNG;
+    r.stage.frame_opts.output.floats = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     if (isatty(STDERR_FILENO)) {
         r.stage.truth.progress = print_progress;
         r.stage.truth.user = &r;
     }
     ok = ok && gn_stage_open(&r.stage, warnings, err);
     if (ok)
-        r.stage.frame_opts.msaa = gn_stage_msaa(&r.stage, (uint32_t)o->render.size.width_px,
-                                                (uint32_t)o->render.size.height_px, true);
+        r.stage.frame_opts.output.msaa = gn_stage_msaa(&r.stage, (uint32_t)o->render.size.width_px,
+                                                       (uint32_t)o->render.size.height_px, true);
     if (ok && o->run.caption) { /* it stays: one layout for all frames */
         const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
         r.captions = gn_captions_create(&opts);
         gn_captions_set(r.captions, GN_CAPTION_ERROR, o->run.caption, 0);
-        r.stage.frame_opts.captions = gn_captions_run(r.captions, (uint32_t)o->render.size.width_px,
-                                                      (uint32_t)o->render.size.height_px, 0);
+        r.stage.frame_opts.cover.captions = gn_captions_run(
+            r.captions, (uint32_t)o->render.size.width_px, (uint32_t)o->render.size.height_px, 0);
     }
     ok = ok && draw_frames(&r, warnings, err);
     free(r.rgba);

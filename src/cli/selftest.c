@@ -67,8 +67,8 @@ static struct gn_selftest_count count_wrong(const struct desk *desk) {
 static bool draw_row(const struct desk *desk, const struct gn_selftest_row *row,
                      struct gn_err *err) {
     const struct gn_frame_opts opts = {
-        .width_px = desk->truth.width_px,
-        .height_px = desk->truth.height_px,
+        .output.width_px = desk->truth.width_px,
+        .output.height_px = desk->truth.height_px,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),
                        .technique = row->technique,

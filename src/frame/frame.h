@@ -66,16 +66,28 @@ struct gn_frame_environment_opts {
     float strength;                /* factor on its radiance; 0: it gives no light */
 };
 
+struct gn_frame_output_opts {     /* what the picture is drawn to: assigned whole */
+    uint32_t width_px, height_px; /* 1280 x 720 */
+    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
+                                     clockwise by this; by 90 it is height_px wide */
+    uint32_t msaa;
+    bool unencoded;      /* its framebuffer does not encode: shaders do */
+    bool linear, floats; /* it stores linear bytes, or half floats */
+    bool keeps_alpha;    /* alpha has a meaning there: a file */
+};
+struct gn_frame_cover_opts {               /* what lies over the finished picture */
+    const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
+    bool captions_later;                   /* include their program even without captions */
+    float dimmed; /* share of its light that the picture loses, captions too; 0: none */
+};
+
 struct gn_frame_opts {
     struct gn_frame_shadow_opts shadow;
     struct gn_frame_environment_opts environment;
     struct gn_frame_view_opts view;
     struct gn_frame_debug_opts debug;
-    uint32_t width_px, height_px; /* of the output; 1280 x 720 */
-    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
-                                     clockwise by this; by 90 it is height_px wide */
-    bool unencoded;               /* the output's framebuffer does not encode: shaders do */
-    bool output_linear, output_float;
+    struct gn_frame_output_opts output;
+    struct gn_frame_cover_opts cover;
     enum gn_background {
         GN_BACKGROUND_SCENE, /* as the scene has it */
         GN_BACKGROUND_SKY,   /* the hemisphere's horizon, whatever the scene has */
@@ -83,15 +95,10 @@ struct gn_frame_opts {
         GN_BACKGROUND_TRANSPARENT, /* where the output keeps alpha; else black */
     } background;
     float background_color[3]; /* linear */
-    bool keeps_alpha;          /* the picture goes where alpha has a meaning: a file */
     enum gn_tone tone;         /* AUTO: as gn_frame_choose_tone() decides */
-    uint32_t msaa;
     bool exposure_given;
-    float exposure_ev;                     /* stops, when given; else automatic */
-    bool all_seen;                         /* no culling: for programs that will be needed later */
-    const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
-    bool captions_later;                   /* include their program even without captions */
-    float dimmed; /* share of its light that the finished picture loses, captions too; 0: none */
+    float exposure_ev; /* stops, when given; else automatic */
+    bool all_seen;     /* no culling: for programs that will be needed later */
 };
 
 /* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from

@@ -36,9 +36,9 @@ void gn_frame_renew_notices(struct gn_frame *frame, const struct gn_frame_opts *
     const uint64_t of_all = gn_hash(GN_HASH_INIT, &shadow->any, sizeof shadow->any);
     const uint32_t about[GN_NOTICE_ABOUT] = {
         opts->debug.aov,
-        opts->output_float,
-        opts->output_linear,
-        opts->msaa,
+        opts->output.floats,
+        opts->output.linear,
+        opts->output.msaa,
         opts->tone,
         opts->background,
         shadow->planar_in_stencil,

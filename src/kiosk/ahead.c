@@ -69,16 +69,11 @@ static void fail_reload(struct gn_show *s, const struct gn_err *err) {
 /* All that the mode can need, on this screen. */
 static const struct gn_plan *plan_mode(const struct gn_show *s, const struct gn_show_looks *looks,
                                        struct gn_frame *frame, struct gn_pose *pose, int mode) {
-    const int variant = pose->variant;
-    const struct gn_frame_opts *now = &s->stage.frame_opts;
+    const int variant = pose->at.variant;
     struct gn_frame_opts opts = looks->of[mode].frame_opts;
-    opts.width_px = now->width_px;
-    opts.height_px = now->height_px;
-    opts.turn_deg = now->turn_deg;
-    opts.unencoded = now->unencoded;
-    opts.msaa = now->msaa;
+    opts.output = s->stage.frame_opts.output;
     opts.all_seen = true;
-    opts.captions_later = true;
+    opts.cover.captions_later = true;
     gn_pose_choose_variant(pose, looks->of[mode].variant);
     const struct gn_plan *plan = gn_frame_build(frame, pose, &opts, NULL);
     gn_pose_choose_variant(pose, variant);
@@ -172,7 +167,7 @@ void gn_show_stage_reload(struct gn_show *s, const struct gn_stage_look *look) {
     }
     scenes->looks.of[0] = *look;
     scenes->looks.ready = 0;
-    if (look->clips != scenes->staged->pose.clips)
+    if (look->clips != scenes->staged->pose.at.clips)
         gn_pose_choose(&scenes->staged->pose, look->clips);
     gn_pose_choose_variant(&scenes->staged->pose, look->variant);
     s->ahead.idle = false;

@@ -14,7 +14,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     if (view.dark && s->drawn.dark) return false; /* black stays black */
-    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.fade < 1 ||
+    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.at.fade < 1 ||
                        (!view.stands && (view.clip >= 0 || !gn_pose_stands(&s->stage.pose) ||
                                          gn_show_turntable_moves(s)));
     const struct gn_kiosk_view *drawn = &s->drawn;
@@ -34,7 +34,8 @@ static void fill_screenshot(struct gn_show *s, struct gn_screenshot *shot) {
     const struct gn_frame_opts *f = &s->stage.frame_opts;
     struct gn_err err = {0};
     if (!shot || !gn_screenshot_is_asked(shot)) return;
-    uint8_t *rgba = gn_screenshot_begin(shot, f->width_px, f->height_px, f->turn_deg, &err);
+    uint8_t *rgba = gn_screenshot_begin(shot, f->output.width_px, f->output.height_px,
+                                        f->output.turn_deg, &err);
     if (!rgba || !gn_gl_read_rgba8(s->stage.gl, rgba, &err) || !gn_screenshot_start(shot, &err))
         gn_screenshot_fail(shot, &err);
 }
@@ -59,8 +60,8 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
     gn_parts_add_frame(&s->parts, &s->stage.frame_opts);
     if (is_bare) { /* this frame */
-        s->stage.frame_opts.captions = NULL;
-        s->stage.frame_opts.dimmed = 0.0f;
+        s->stage.frame_opts.cover.captions = NULL;
+        s->stage.frame_opts.cover.dimmed = 0.0f;
     }
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     gn_show_step_turntable(s, seen_ns, scene_ns);

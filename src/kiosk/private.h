@@ -40,11 +40,9 @@ struct gn_show_config {
 /* The screen's context, and what frames are drawn with in it. */
 struct gn_show_context {
     struct gn_screen_opts screen_opts;
-    uint32_t generation; /* of the context that stage.gl lives in; 0: none */
-    bool message;        /* the screen shows a text in place of pictures */
-    bool lacks_range;    /* and a problem says so */
-    bool unencoded;      /* as frames are drawn now */
-    uint32_t msaa;
+    uint32_t generation;     /* of the context that stage.gl lives in; 0: none */
+    bool message;            /* the screen shows a text in place of pictures */
+    bool lacks_range;        /* and a problem says so */
     uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
     int64_t checked_ns;      /* which was then */
 };
@@ -174,7 +172,7 @@ struct gn_show {
     struct gn_show_ahead ahead;
     struct gn_show_fade fade;
     const struct gn_scene *clips_of; /* whose pose was chosen last: another one's was not seen */
-    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.fade */
+    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.at.fade */
     struct gn_show_counts counts;
     struct gn_parts parts;
     struct gn_show_memory memory;

@@ -55,14 +55,8 @@ static struct gn_frame_opts left_opts(const struct gn_show *s) {
     const struct gn_frame_opts *now = &s->stage.frame_opts;
     struct gn_frame_opts opts = s->looks.of[s->split.left].frame_opts;
     opts.view = now->view;
-    opts.width_px = now->width_px;
-    opts.height_px = now->height_px;
-    opts.turn_deg = now->turn_deg;
-    opts.unencoded = now->unencoded;
-    opts.msaa = now->msaa;
-    opts.captions = now->captions;
-    opts.captions_later = now->captions_later;
-    opts.dimmed = now->dimmed;
+    opts.output = now->output;
+    opts.cover = now->cover;
     return opts;
 }
 
@@ -83,11 +77,12 @@ bool gn_split_draw_left(struct gn_show *s, int64_t time_ns, bool *behind, struct
 
 void gn_split_lay_over(struct gn_show *s) {
     const struct gn_frame_opts *f = &s->stage.frame_opts;
-    const uint32_t width = f->width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
+    const uint32_t width = f->output.width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
                    from = at > LINE_PX ? at - LINE_PX : 0,
                    to = at + LINE_PX < width ? at + LINE_PX : width;
     gn_gl_lay_beside(s->stage.gl, at);
-    gn_gl_fill(s->stage.gl, &(struct gn_rect){from, 0, to - from, f->height_px}, 0.0f);
+    gn_gl_fill(s->stage.gl, &(struct gn_rect){from, 0, to - from, f->output.height_px}, 0.0f);
     if (to - from > 2)
-        gn_gl_fill(s->stage.gl, &(struct gn_rect){from + 1, 0, to - from - 2, f->height_px}, 1.0f);
+        gn_gl_fill(s->stage.gl, &(struct gn_rect){from + 1, 0, to - from - 2, f->output.height_px},
+                   1.0f);
 }

@@ -85,19 +85,10 @@ static void follow(struct gn_show *s) {
     struct gn_truth_of now;
     memset(&now, 0, sizeof now); /* with the gaps, for they are compared */
     memcpy(&now.view, &f->view, sizeof now.view);
-    now.time_ns = s->stage.pose.time_ns;
-    now.width_px = f->width_px;
-    now.height_px = f->height_px;
+    now.moment = s->stage.pose.at;
+    now.width_px = f->output.width_px;
+    now.height_px = f->output.height_px;
     now.mode = s->kiosk.shown.mode;
-    now.turns = s->stage.pose.run.turns;
-    now.speed_less_1 = s->stage.pose.run.speed_less_1;
-    now.start_ns = s->stage.pose.run.start_ns;
-    now.begun_ns = s->stage.pose.begun_ns;
-    now.clips = s->stage.pose.clips;
-    now.over = s->stage.pose.over;
-    now.over_ns = s->stage.pose.over_ns;
-    now.fade = s->stage.pose.fade;
-    now.variant = s->stage.pose.variant;
     if (memcmp(&now, &t->of, sizeof now) == 0) return;
     gn_truth_drop(s);
     memcpy(&t->of, &now, sizeof now);
@@ -122,7 +113,7 @@ static bool use_rays(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
     if (!t->frame) t->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
     stage->frame = t->frame;
     GN_LIGHT_SET(&stage->frame_opts.shadow.any, technique, GN_TECHNIQUE_TRUTH);
-    stage->frame_opts.msaa = 0;
+    stage->frame_opts.output.msaa = 0;
     if (has_come(t)) {
         stage->truth.given = t->rays;
         ok = gn_stage_draw(stage, time_ns, s->warnings, err);

@@ -19,13 +19,9 @@ struct gn_show_truth { /* zeroed: off */
     struct gn_frame *frame; /* builds the plans that are drawn with them; NULL: none yet */
     struct gn_truth_of {
         struct gn_frame_view_opts view;
-        int64_t time_ns, over_ns;
+        struct gn_moment moment;
         uint32_t width_px, height_px;
-        int mode, clips, over, variant;
-        float fade;
-        int turns; /* these of gn_pose_run */
-        double speed_less_1;
-        int64_t start_ns, begun_ns;
+        int mode;
     } of;               /* what is cast */
     int64_t changed_ns; /* since then it is the same */
     int percent;        /* that the caption tells */

@@ -112,7 +112,7 @@ static void mix(struct gn_values *v, const struct gn_pose *pose) {
     const uint32_t floats = pose->scene->animation.record_floats;
     for (uint32_t i = 0; i < floats; i++)
         v->shown[i] =
-            pose->fade < 1 ? v->kept[i] + (v->now[i] - v->kept[i]) * pose->fade : v->now[i];
+            pose->at.fade < 1 ? v->kept[i] + (v->now[i] - v->kept[i]) * pose->at.fade : v->now[i];
 }
 
 /* A node is shown or not: between clips, as the newer one has it. */

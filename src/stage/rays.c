@@ -189,13 +189,12 @@ static void *cast_in_thread(void *user) {
 }
 
 static void copy_pose(struct gn_rays *rays, const struct gn_pose *pose) {
-    gn_pose_init(&rays->own_pose, pose->scene, pose->clips);
-    if (pose->over >= 0) gn_pose_choose_over(&rays->own_pose, pose->clips, pose->over);
-    rays->own_pose.over_ns = pose->over_ns;
-    rays->own_pose.run = pose->run;
-    rays->own_pose.begun_ns = pose->begun_ns;
-    gn_pose_choose_variant(&rays->own_pose, pose->variant);
-    gn_pose_step(&rays->own_pose, pose->time_ns);
+    gn_pose_init(&rays->own_pose, pose->scene, pose->at.clips);
+    if (pose->at.over >= 0) gn_pose_choose_over(&rays->own_pose, pose->at.clips, pose->at.over);
+    gn_pose_choose_variant(&rays->own_pose, pose->at.variant);
+    rays->own_pose.at = pose->at;
+    rays->own_pose.at.fade = 1; /* it has not kept what that fades from */
+    gn_pose_step(&rays->own_pose, pose->at.time_ns);
     if (pose->aimed) gn_pose_aim(&rays->own_pose, pose->aim_ws);
     rays->pose = &rays->own_pose;
 }

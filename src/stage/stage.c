@@ -146,13 +146,13 @@ static enum gn_background background_of(int setting) {
 static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o) {
     const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
-        .width_px = (uint32_t)o->render.size.width_px,
-        .height_px = (uint32_t)o->render.size.height_px,
+        .output.width_px = (uint32_t)o->render.size.width_px,
+        .output.height_px = (uint32_t)o->render.size.height_px,
         .view.framing.turns = o->scene.turntable_deg_s != 0.0,
         .debug.aov = o->render.aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
                                                    : (enum gn_aov)o->render.aov,
         .debug.light = o->render.light,
-        .output_linear = o->render.output == GN_PICTURE_LINEAR,
+        .output.linear = o->render.output == GN_PICTURE_LINEAR,
         .exposure_given = !isnan(o->render.exposure_ev),
         .exposure_ev = isnan(o->render.exposure_ev) ? 0.0f : (float)o->render.exposure_ev,
         .shadow.planar_in_stencil = o->render.planar == GN_PLANAR_STENCIL,
@@ -165,7 +165,7 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .shadow.filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
         .background = background_of(o->render.background),
         .tone = (enum gn_tone)o->render.tone,
-        .msaa = o->render.msaa == GN_MSAA_AUTO ? 0 : (uint32_t)o->render.msaa,
+        .output.msaa = o->render.msaa == GN_MSAA_AUTO ? 0 : (uint32_t)o->render.msaa,
         .debug.show_lights = o->render.show_lights,
         .debug.show_maps = o->render.show_maps,
     };
@@ -223,9 +223,9 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     struct gn_frame_environment_opts *e = &look->frame_opts.environment;
     e->shows_key = e->of && e->lights_key && gn_stage_keeps_key(&look->frame_opts.shadow, o, scene);
-    if (look->frame_opts.msaa > 1 && casts_rays(&look->frame_opts.shadow))
+    if (look->frame_opts.output.msaa > 1 && casts_rays(&look->frame_opts.shadow))
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
-                             gn_settings_label(o, render.msaa), look->frame_opts.msaa);
+                             gn_settings_label(o, render.msaa), look->frame_opts.output.msaa);
     const struct gn_scene_limits limits = gn_stage_limits(o);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;
@@ -241,7 +241,7 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     stage->frame_opts = look.frame_opts;
     gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_choose_variant(&stage->pose, look.variant);
-    stage->pose.run = look.run;
+    stage->pose.at.run = look.run;
     gn_pose_step(&stage->pose, settings->scene.time_ns);
     gn_stage_aim(&stage->pose, &stage->frame_opts, settings);
     return true;
@@ -315,7 +315,7 @@ uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t
     const struct gn_frame_opts *f = &stage->frame_opts;
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     if (o->render.msaa != GN_MSAA_AUTO) return (uint32_t)o->render.msaa;
-    const bool measured = f->output_linear || f->output_float || casts_rays(&f->shadow);
+    const bool measured = f->output.linear || f->output.floats || casts_rays(&f->shadow);
     if (measured || !(caps->has & 1u << GN_CAP_MSAA4) || !(caps->tiler || to_file)) return 0;
     return (uint64_t)width_px * height_px <= MSAA_MOST_PIXELS ? 4 : 0;
 }

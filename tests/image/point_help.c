@@ -42,8 +42,8 @@ int help_lamp_unload(void **state) {
 const struct gn_plan *help_lamp_draw(int camera, int technique, int encoding, int width_px,
                                      int height_px) {
     struct gn_frame_opts opts = {
-        .width_px = (uint32_t)width_px,
-        .height_px = (uint32_t)height_px,
+        .output.width_px = (uint32_t)width_px,
+        .output.height_px = (uint32_t)height_px,
         .view.camera = camera,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),

@@ -92,8 +92,8 @@ static const struct gn_shadow_view *draw_visibility(enum gn_technique technique,
                                                     enum gn_encoding encoding, uint32_t cascades,
                                                     struct gn_picture *shot) {
     const struct gn_frame_opts opts = {
-        .width_px = WIDTH_PX,
-        .height_px = HEIGHT_PX,
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),
                        .technique = technique,
@@ -232,8 +232,8 @@ static struct gn_orbit orbit_at(int eye) {
 
 static void draw_maps(enum gn_encoding encoding, int eye) {
     const struct gn_frame_opts opts = {
-        .width_px = 160,
-        .height_px = 90,
+        .output.width_px = 160,
+        .output.height_px = 90,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),
                        .technique = GN_TECHNIQUE_PCF,
@@ -340,8 +340,8 @@ static void test_beside_a_tile_all_is_clear(void **state) {
     (void)state;
     for (uint32_t cascades = 4; cascades >= 2; cascades--) {
         const struct gn_frame_opts opts = {
-            .width_px = 160,
-            .height_px = 90,
+            .output.width_px = 160,
+            .output.height_px = 90,
             .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                     GN_LIGHT_GIVEN(map_format),
                            .technique = GN_TECHNIQUE_PCSS,
@@ -371,8 +371,8 @@ static void test_a_moving_eye_makes_nothing(void **state) {
         uint64_t objects = 0;
         for (int eye = 0; eye < EYES; eye++) {
             const struct gn_frame_opts opts = {
-                .width_px = 160,
-                .height_px = 90,
+                .output.width_px = 160,
+                .output.height_px = 90,
                 .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                                .technique = techniques[t],
                                .map_px = SMALL_PX},

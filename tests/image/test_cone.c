@@ -84,8 +84,8 @@ static void view_finish(struct view *v) {
 static void shoot(const struct view *v, enum gn_technique technique, struct gn_picture *shot) {
     static float aov[4 * PIXELS_MAX];
     const struct gn_frame_opts opts = {
-        .width_px = (uint32_t)v->truth.width_px,
-        .height_px = (uint32_t)v->truth.height_px,
+        .output.width_px = (uint32_t)v->truth.width_px,
+        .output.height_px = (uint32_t)v->truth.height_px,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = technique,
                        .map_px = 1024},

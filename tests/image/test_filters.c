@@ -60,8 +60,8 @@ static void test_a_box_is_a_straight_ramp(void **state) {
     help_stage_open(&stage, make_edge, "egl", NULL, NULL);
     for (int i = 0; i < 2; i++) {
         const struct gn_frame_opts opts = {
-            .width_px = WIDTH_PX,
-            .height_px = HEIGHT_PX,
+            .output.width_px = WIDTH_PX,
+            .output.height_px = HEIGHT_PX,
             .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                            .technique = boxes[i].technique,
                            .map_px = 32},
@@ -127,8 +127,8 @@ static void test_white_noise_is_white(void **state) {
     help_stage_open(&stage, make_edge, "egl", NULL, NULL);
     for (int i = 0; i < 3; i++) {
         const struct gn_frame_opts opts = {
-            .width_px = WIDTH_PX,
-            .height_px = HEIGHT_PX,
+            .output.width_px = WIDTH_PX,
+            .output.height_px = HEIGHT_PX,
             .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                            .technique = i == 1 ? GN_TECHNIQUE_DISK : GN_TECHNIQUE_WHITE,
                            .map_px = 24},
@@ -158,8 +158,8 @@ static double width_of_vsm(struct help_stage *stage, enum gn_moments moments, in
     double sum = 0;
     for (uint32_t i = 0; i < SIZES; i++) {
         const struct gn_frame_opts opts = {
-            .width_px = WIDTH_PX,
-            .height_px = HEIGHT_PX,
+            .output.width_px = WIDTH_PX,
+            .output.height_px = HEIGHT_PX,
             .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                     GN_LIGHT_GIVEN(map_format),
                            .technique = GN_TECHNIQUE_VSM,
@@ -255,8 +255,8 @@ enum { MAP_PX = 256, TEXELS_MAX = 6 * MAP_PX * MAP_PX };
 
 static struct gn_frame_opts map_opts(enum gn_encoding encoding) {
     return (struct gn_frame_opts){
-        .width_px = 160,
-        .height_px = 120,
+        .output.width_px = 160,
+        .output.height_px = 120,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),
                        .technique = GN_TECHNIQUE_HARD,

@@ -38,8 +38,8 @@ static int close_all(void **state) {
 
 static struct gn_frame_opts opts_of(enum gn_technique technique) {
     return (struct gn_frame_opts){
-        .width_px = WIDTH_PX,
-        .height_px = HEIGHT_PX,
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = technique,
                        .map_px = 1024},
@@ -189,7 +189,7 @@ static void test_highlights_stay_in_shadow_as_told(void **state) {
     double sums[3] = {0}; /* red of all pixels in shadow: as the rest, .302, none */
     float *lit = gn_xalloc(4 * PIXELS, sizeof *lit);
     opts.debug.aov = GN_AOV_COLOR;
-    opts.output_linear = opts.output_float = true;
+    opts.output.linear = opts.output.floats = true;
     opts.exposure_given = true;
     GN_LIGHT_SET(&opts.shadow.any, strength, 0.0f);
     draw(&opts);

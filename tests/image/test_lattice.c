@@ -118,8 +118,8 @@ enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
 
 static const struct gn_shadow_view *draw(enum gn_technique technique) {
     const struct gn_frame_opts opts = {
-        .width_px = WIDTH,
-        .height_px = HEIGHT,
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = technique,
                        .map_px = 128},

@@ -59,8 +59,8 @@ static int close_all(void **state) {
 
 static struct gn_frame_opts opts_of(enum gn_technique technique) {
     return (struct gn_frame_opts){
-        .width_px = WIDTH_PX,
-        .height_px = HEIGHT_PX,
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = technique,
                        .map_px = 1024},

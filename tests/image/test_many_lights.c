@@ -28,8 +28,8 @@ static void open_with(const char *backend, const char *without) {
     memcpy(own, stage.scene->lights, sizeof own);
     stage.scene->lights = lights; /* none of them is made yet */
     stage.pose.lights = lights;
-    opts = (struct gn_frame_opts){.width_px = WIDTH,
-                                  .height_px = HEIGHT,
+    opts = (struct gn_frame_opts){.output.width_px = WIDTH,
+                                  .output.height_px = HEIGHT,
                                   .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 256},
                                   .exposure_given = true};
 }
@@ -182,7 +182,7 @@ static void test_blended_things_in_a_row(void **state) {
 static void test_antialiased(void **state) {
     (void)state;
     if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
-    opts.msaa = 4;
+    opts.output.msaa = 4;
     close_the_pane();
     one_kind();
     expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
@@ -192,14 +192,14 @@ static void test_antialiased(void **state) {
 static void test_antialiased_without_srgb(void **state) {
     (void)state;
     if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
-    opts.msaa = 4;
+    opts.output.msaa = 4;
     one_kind();
     share(SPOT, 5);
     assert_int_equal(draw(one)->output, GN_OUTPUT_FLOAT);
     share(SPOT, 8);
     draw(many);
     assert_true(apart(one, many, 1) <= 1.0);
-    opts.msaa = 0;
+    opts.output.msaa = 0;
     draw(many);
     assert_true(apart(one, many, 1) > 2.0);
 }
@@ -207,7 +207,7 @@ static void test_antialiased_without_srgb(void **state) {
 static void test_light_adds_up_in_linear_bytes_too(void **state) {
     (void)state;
     one_kind();
-    opts.output_linear = true;
+    opts.output.linear = true;
     expect_one(SUN, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 2);
 }
 
@@ -299,7 +299,7 @@ static void test_everything_at_once(void **state) {
         lights[i].technique = techniques[i % 5];
     }
     one_kind();
-    if (full) opts.width_px = 1280, opts.height_px = 720;
+    if (full) opts.output.width_px = 1280, opts.output.height_px = 720;
     const int step = full || main_context ? 1 : 3;
     for (int encoding = 0; encoding <= GN_ENCODING_AUTO; encoding += step) {
         GN_LIGHT_SET(&opts.shadow.any, map_format,

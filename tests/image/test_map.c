@@ -60,8 +60,8 @@ static struct gn_orbit orbit_at(int path, int step) {
 
 static void draw_map(enum gn_encoding encoding, const struct gn_orbit *orbit, struct shot *shot) {
     struct gn_frame_opts opts = {
-        .width_px = 80,
-        .height_px = 120,
+        .output.width_px = 80,
+        .output.height_px = 120,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),
                        .technique = GN_TECHNIQUE_HARD,
@@ -234,8 +234,8 @@ static uint32_t draws_of(struct gn_frame_opts *opts) {
 static void test_a_still_scene_makes_no_map_and_no_cones(void **state) {
     (void)state;
     struct gn_frame_opts opts = {
-        .width_px = 80,
-        .height_px = 120,
+        .output.width_px = 80,
+        .output.height_px = 120,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = GN_TECHNIQUE_CONE,
                        .map_px = MAP_PX}};

@@ -55,8 +55,8 @@ static void all_that_is_allocated_is_counted(void **state) {
                 for (int m = 0; m < GN_MOMENTS_COUNT; m++)
                     for (int k = 0; k < 6; k++) {
                         struct gn_frame_opts opts = {
-                            .width_px = 64,
-                            .height_px = 64,
+                            .output.width_px = 64,
+                            .output.height_px = 64,
                             .shadow.any = {.given = GN_LIGHT_GIVEN(technique) |
                                                     (sizes[k % 3] ? GN_LIGHT_GIVEN(map_px) : 0) |
                                                     GN_LIGHT_GIVEN(faces) |

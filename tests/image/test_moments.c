@@ -66,8 +66,8 @@ static float picture[4 * WIDTH * HEIGHT];
 
 static const struct gn_plan *draw(enum gn_technique technique, enum gn_moments moments) {
     const struct gn_frame_opts opts = {
-        .width_px = WIDTH,
-        .height_px = HEIGHT,
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),
                        .technique = technique,
@@ -245,8 +245,8 @@ static void test_no_texel_is_anything_but_a_number(void **state) {
     for (int n = 0; n < frames; n++) {
         const int light = n % 3;
         struct gn_frame_opts opts = {
-            .width_px = W,
-            .height_px = H,
+            .output.width_px = W,
+            .output.height_px = H,
             .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                            .technique = GN_TECHNIQUE_VSM + n / 3 % 3,
                            .map_px = MAP},
@@ -292,8 +292,8 @@ static void test_mipmaps_are_means_of_the_map(void **state) {
     enum { SIDE = 256 };
     static float whole[4 * SIDE * SIDE], half[4 * SIDE * SIDE / 4];
     const struct gn_frame_opts opts = {
-        .width_px = 64,
-        .height_px = 48,
+        .output.width_px = 64,
+        .output.height_px = 48,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
                                 GN_LIGHT_GIVEN(map_format),
                        .technique = GN_TECHNIQUE_VSM,
@@ -334,8 +334,8 @@ static void test_a_still_scene_is_filtered_once(void **state) {
     help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     for (int t = GN_TECHNIQUE_VSM; t <= GN_TECHNIQUE_MSM; t++) {
         const struct gn_frame_opts opts = {
-            .width_px = 64,
-            .height_px = 48,
+            .output.width_px = 64,
+            .output.height_px = 48,
             .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                            .technique = (enum gn_technique)t,
                            .map_px = 64}};

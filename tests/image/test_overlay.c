@@ -28,8 +28,8 @@ static struct gn_scene *make_scene(void) {
 
 static void open_scene(struct gn_scene *(*make)(void), const char *backend, const char *without) {
     help_stage_open(&stage, make, backend, without, NULL);
-    opts = (struct gn_frame_opts){.width_px = WIDTH,
-                                  .height_px = HEIGHT,
+    opts = (struct gn_frame_opts){.output.width_px = WIDTH,
+                                  .output.height_px = HEIGHT,
                                   .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = MAP},
                                   .shadow.cascades =
                                       1}; /* texel by texel an atlas is larger than a panel */

@@ -44,8 +44,8 @@ struct soft {
 static void begin(struct soft *s, const struct gn_scene *scene, uint32_t points, uint32_t gather) {
     struct gn_err err = {0};
     s->opts = (struct gn_frame_opts){
-        .width_px = WIDTH,
-        .height_px = HEIGHT,
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
         .debug.aov = GN_AOV_VISIBILITY,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique), .technique = GN_TECHNIQUE_PLANAR},
         .shadow.planar_points = points,
@@ -232,7 +232,7 @@ static void test_both_planes_have_their_shadow_in_colour(void **state) {
     draw(&s);
     memcpy(seen, picture, sizeof seen);
     s.opts.debug.aov = GN_AOV_COLOR;
-    s.opts.output_float = true;
+    s.opts.output.floats = true;
     draw(&s);
     for (uint8_t plane = 1; plane <= 2; plane++) {
         int least = -1, most = -1; /* pixels */
@@ -276,7 +276,7 @@ static void test_lights_of_two_passes_reach_both_planes(void **state) {
     glm_vec3_copy(scene->lights[0].color, color);
     begin(&s, scene, 16, 0);
     s.opts.debug.aov = GN_AOV_COLOR;
-    s.opts.output_float = s.opts.exposure_given = true;
+    s.opts.output.floats = s.opts.exposure_given = true;
     for (int lit = 0; lit <= SUNS; lit++) {
         for (int i = 0; i < SUNS; i++) {
             scene->lights[i].radius = 0.2f;

@@ -52,8 +52,8 @@ static void read_picture(float *to) {
 
 static const struct gn_plan *draw(enum gn_technique technique, enum gn_aov what, float *to) {
     const struct gn_frame_opts opts = {
-        .width_px = WIDTH_PX,
-        .height_px = HEIGHT_PX,
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = technique,
                        .map_px = MAP_PX},

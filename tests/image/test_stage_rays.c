@@ -41,8 +41,7 @@ static void test_rays_of_a_thread_are_those_of_the_picture(void **state) {
         !gn_gl_read_f32(stage.gl, once[0], &err) ||
         !(plan = gn_stage_plan(&stage, &warnings, &err)))
         fail_msg("%s", err.text);
-    const struct gn_scene_limits limits = gn_scene_limits_or_default(NULL);
-    struct gn_rays *rays = gn_rays_begin(&stage, plan, &limits, &err);
+    struct gn_rays *rays = gn_rays_begin(&stage, plan, &err);
     if (!rays) fail_msg("%s", err.text);
     while (!gn_rays_are_done(rays)) usleep(1000);
     stage.truth.given = rays;

@@ -40,8 +40,8 @@ static int close_all(void **state) {
 
 static const struct gn_plan *draw(enum gn_technique technique, uint32_t map_px) {
     const struct gn_frame_opts opts = {
-        .width_px = 64,
-        .height_px = 48,
+        .output.width_px = 64,
+        .output.height_px = 48,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = technique,
                        .map_px = map_px}};
@@ -232,8 +232,8 @@ enum { WIDTH = 64, HEIGHT = 48 };
 static void check_frame(enum gn_technique technique, int light) {
     static float picture[WIDTH * HEIGHT][4];
     const struct gn_frame_opts opts = {
-        .width_px = WIDTH,
-        .height_px = HEIGHT,
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
         .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
                        .technique = technique,
                        .map_px = 48},

@@ -42,9 +42,9 @@ static int close_all(void **state) {
 static void draw(unsigned turn_deg, bool overlays, uint8_t *out) {
     const bool on_side = turn_deg % 180 != 0;
     const struct gn_frame_opts opts = {
-        .width_px = on_side ? HEIGHT : WIDTH,
-        .height_px = on_side ? WIDTH : HEIGHT,
-        .turn_deg = turn_deg,
+        .output.width_px = on_side ? HEIGHT : WIDTH,
+        .output.height_px = on_side ? WIDTH : HEIGHT,
+        .output.turn_deg = turn_deg,
         .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 256},
         .debug.show_lights = overlays,
         .debug.show_maps = overlays};

@@ -221,7 +221,7 @@ static void corner_in_texels(const struct gn_shadow_view *view, double out[2]) {
 static void expect_whole_texels(enum gn_technique technique) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.width_px = 100; /* a narrow view limits the window */
+    f.opts.output.width_px = 100; /* a narrow view limits the window */
     GN_LIGHT_SET(&f.opts.shadow.any, technique, technique);
     struct gn_shadow_view still = gn_plan_make(&f)->shadows[0];
     int moved = 0;
@@ -430,7 +430,7 @@ static void test_caption_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.captions = &captions;
+    f.opts.cover.captions = &captions;
     gn_plan_expect(gn_plan_make(&f), "caption");
     gn_plan_end(&f);
 }
@@ -444,12 +444,12 @@ static void test_captions_that_are_not_seen(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     const uint32_t passes = gn_plan_make(&f)->pass_count;
     run.alpha[GN_CAPTION_ERROR] = 0;
-    f.opts.captions = &run;
+    f.opts.cover.captions = &run;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_int_equal(plan->pass_count, passes + 1);
     assert_int_equal(plan->draws[plan->draw_count - 1].instance_count, 2);
     assert_int_equal(plan->passes[passes].rect.width, 200);
-    f.opts.turn_deg = 90;
+    f.opts.output.turn_deg = 90;
     assert_int_equal(gn_plan_make(&f)->pass_count, passes);
     run.width_px = 720, run.height_px = 1280;
     plan = gn_plan_make(&f);

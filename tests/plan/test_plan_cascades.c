@@ -123,7 +123,7 @@ static void test_every_camera_has_a_plan(void **state) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make(), 4096);
             f.opts.view.camera = camera;
-            f.opts.turn_deg = turn;
+            f.opts.output.turn_deg = turn;
             const struct gn_shadow_view *view = view_of(&f);
             const bool some = camera == GN_FIELD_STANDING || camera == GN_FIELD_INSIDE;
             assert_int_equal(view->map.cascade_count, some ? 4 : 0);
@@ -170,8 +170,8 @@ static void test_so_many_as_are_set(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
-    f.opts.width_px = 64; /* one would be enough */
-    f.opts.height_px = 36;
+    f.opts.output.width_px = 64; /* one would be enough */
+    f.opts.output.height_px = 36;
     for (uint32_t count = 1; count <= 4; count++) {
         GN_LIGHT_SET(&f.opts.shadow.any, cascades, count);
         assert_int_equal(view_of(&f)->map.cascade_count, count == 1 ? 0 : count);
@@ -192,8 +192,8 @@ static void test_small_pictures_need_fewer(void **state) {
     begin(&f, gn_field_scene_make(), 4096);
     uint32_t last = 4;
     for (uint32_t width_px = 1280; width_px >= 4; width_px /= 2) {
-        f.opts.width_px = width_px;
-        f.opts.height_px = width_px * 9 / 16;
+        f.opts.output.width_px = width_px;
+        f.opts.output.height_px = width_px * 9 / 16;
         const uint32_t count = view_of(&f)->map.tile_count;
         assert_true(count <= last);
         last = count;
@@ -210,8 +210,8 @@ static void test_a_camera_that_flies_has_as_many_all_along(void **state) {
         for (int i = 0; i < 3; i++) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make_flown(30.0f), 4096);
-            f.opts.width_px = width_px;
-            f.opts.height_px = width_px * 9 / 16;
+            f.opts.output.width_px = width_px;
+            f.opts.output.height_px = width_px * 9 / 16;
             gn_pose_step(&f.pose, (int64_t)i * 1999000000);
             counts[i] = view_of(&f)->map.tile_count;
             gn_plan_end(&f);
@@ -230,8 +230,8 @@ static void test_a_clip_over_others_flies_as_well(void **state) {
         for (int i = 0; i < 2; i++) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make_flown(30.0f), 4096);
-            f.opts.width_px = width_px;
-            f.opts.height_px = width_px * 9 / 16;
+            f.opts.output.width_px = width_px;
+            f.opts.output.height_px = width_px * 9 / 16;
             if (i == 1) {
                 f.scene->nodes[f.scene->cameras[0].node].translation[1] = 30.0f;
                 gn_pose_choose(&f.pose, GN_POSE_NONE);
@@ -256,8 +256,8 @@ static void test_more_that_help_little_are_not_taken(void **state) {
         struct gn_scene *scene = gn_scene_load("assets/sundial.glb", NULL, NULL, &err);
         if (!scene) fail_msg("%s", err.text);
         begin(&f, scene, 4096);
-        f.opts.width_px = widths_px[i];
-        f.opts.height_px = widths_px[i] * 9 / 16;
+        f.opts.output.width_px = widths_px[i];
+        f.opts.output.height_px = widths_px[i] * 9 / 16;
         assert_int_equal(view_of(&f)->map.cascade_count, 2);
         gn_plan_end(&f);
     }
@@ -275,8 +275,8 @@ static void test_all_techniques_agree_on_it(void **state) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make(), 4096);
             GN_LIGHT_SET(&f.opts.shadow.any, technique, techniques[i]);
-            f.opts.width_px = 2 * height_px;
-            f.opts.height_px = height_px;
+            f.opts.output.width_px = 2 * height_px;
+            f.opts.output.height_px = height_px;
             counts[i] = view_of(&f)->map.cascade_count;
             gn_plan_end(&f);
         }

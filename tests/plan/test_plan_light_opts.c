@@ -213,8 +213,8 @@ static void test_a_light_can_be_looked_from(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     for (int wide = 0; wide < 2; wide++) {
         f.opts.view.light_plus_1 = 1;
-        f.opts.width_px = wide ? 640 : 200;
-        f.opts.height_px = wide ? 200 : 640;
+        f.opts.output.width_px = wide ? 640 : 200;
+        f.opts.output.height_px = wide ? 200 : 640;
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
         mat4 clip;

@@ -29,12 +29,12 @@ static void test_a_tone_is_for_pictures_that_are_looked_at(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     f.opts.tone = GN_TONE_AGX;
     assert_true(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
-    f.opts.output_linear = true;
+    f.opts.output.linear = true;
     assert_false(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
-    f.opts.output_linear = false;
-    f.opts.output_float = true;
+    f.opts.output.linear = false;
+    f.opts.output.floats = true;
     assert_false(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
-    f.opts.output_float = false;
+    f.opts.output.floats = false;
     f.opts.tone = GN_TONE_AUTO;
     assert_int_equal(gn_plan_make(&f)->tone, GN_TONE_NONE); /* it has lights of its own */
     f.scene->added.light = true;
@@ -165,7 +165,7 @@ static void test_backdrop_plan(void **state) {
     f.opts.debug.aov = GN_AOV_COLOR;
     f.opts.background = GN_BACKGROUND_TRANSPARENT; /* holds, where it is kept */
     assert_int_equal(gn_plan_make(&f)->pass_count, passes);
-    f.opts.keeps_alpha = true;
+    f.opts.output.keeps_alpha = true;
     const struct gn_plan *plan = gn_plan_make(&f);
     for (uint32_t i = 0; i < plan->program_count; i++)
         assert_int_not_equal(plan->programs[i].kind, GN_PROGRAM_BACKDROP);
