@@ -14,7 +14,7 @@ struct gn_keeper {
     int older;      /* the thread's */
     uint64_t taken; /* the owner's, as `asked` */
     /* under the mutex */
-    uint64_t asked, saved; /* numbers of saves: the last one of each kind */
+    uint64_t asked, saved; /* numbers of the last save of each kind */
     struct gn_state next;
     bool ok; /* the result of `saved` */
     struct gn_err err;

@@ -10,7 +10,7 @@ struct gn_keeper;
 struct gn_keeper *gn_keeper_open(const struct gn_disk *disk, const char *path, int older,
                                  struct gn_err *err);
 int gn_keeper_fd(const struct gn_keeper *keeper); /* readable when gn_keeper_take() has a result */
-/* The state is copied. One that is asked for before another is begun replaces that. */
+/* The state is copied. It replaces one that is not being saved yet. */
 void gn_keeper_save(struct gn_keeper *keeper, const struct gn_state *state);
 bool gn_keeper_is_busy(const struct gn_keeper *keeper); /* the result is not taken yet */
 /* True: what was asked for last is done, and *ok and err have the result. */

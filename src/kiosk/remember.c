@@ -36,7 +36,7 @@ static void begin_counts(struct gn_state *s) {
     memcpy(s->boot, boot, sizeof boot);
 }
 
-/* The mode of that name, but where the command line says which. */
+/* The mode of that name, unless the command line names one. */
 static void recall_mode(const struct gn_show *s, struct gn_options *o) {
     const char *mode = s->memory.state.mode;
     const struct gn_settings *base = &o->all[0];

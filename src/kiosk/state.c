@@ -75,11 +75,11 @@ static bool is_whole(const char *text, size_t size, struct gn_err *err) {
            gn_fail(err, "its checksum is wrong");
 }
 
-/* length: of the value, which a line end follows. */
+/* length: that of the value, which ends before a line end. */
 static void take_value(const struct line *line, const char *value, size_t length, void *out) {
     switch (line->kind) {
     case TEXT:
-        if (length >= line->size) return; /* of a later version */
+        if (length >= line->size) return; /* written by a later version */
         memcpy(out, value, length);
         ((char *)out)[length] = 0;
         break;

@@ -13,8 +13,9 @@
 #include "kiosk/control/passed.h"
 
 enum { CLIENTS = GN_CONTROL_CLIENTS_MAX };
-static const int64_t STUCK_NS = 5 * GN_NS_PER_S;   /* without reading a reply: it is cut off */
-static const int64_t SILENT_NS = 30 * GN_NS_PER_S; /* without a line: it may be replaced */
+static const int64_t STUCK_NS = 5 * GN_NS_PER_S; /* time to read a reply before it is cut off */
+static const int64_t SILENT_NS =
+    30 * GN_NS_PER_S; /* time without a line before it may be replaced */
 static const int64_t CHANGE_NS = GN_NS_PER_S / GN_CONTROL_CHANGES_PER_S;
 
 struct client {
@@ -201,7 +202,7 @@ static void read_input(struct client *client) {
     client->readable = false;
 }
 
-/* Handles one line, or reads one piece of input. False: there is nothing to do for it now. */
+/* Handles one line, or reads one piece of input. False: nothing to do for this client now. */
 static bool serve_client(struct client **place) {
     struct client *client = *place;
     if (!client || client->out || client->state != IDLE) return false;
@@ -221,7 +222,7 @@ static bool serve_client(struct client **place) {
     } else if (client->readable) {
         read_input(client);
     } else if (client->ended) {
-        drop_client(place); /* and all is answered */
+        drop_client(place); /* all its requests are answered */
     } else {
         return false;
     }
@@ -230,7 +231,7 @@ static bool serve_client(struct client **place) {
 
 /* ---- clients -------------------------------------------------------------------------------- */
 
-/* May that user have one more client, once `without` (or NULL) has gone? */
+/* Whether that user may have one more client when `without` (or NULL) is closed. */
 static bool has_place(const struct gn_control *c, uid_t uid, const struct client *without) {
     int all = 0, own = 0, others = 0;
     for (int i = 0; i < CLIENTS; i++) {
@@ -304,8 +305,8 @@ static bool admit_client(struct gn_control *c, int fd, struct gn_err *err) {
     return true;
 }
 
-/* One for each step of the loop. Without a descriptor left the connection would keep the listener
- * readable: the spare one is closed to accept and refuse it. */
+/* One connection in each step of the loop. Where no descriptor is left the spare one is closed, so
+ * that the connection can be accepted and refused; else it would keep the listener readable. */
 static void accept_connection(void *user, uint32_t events, int64_t now_ns) {
     struct gn_control *c = user;
     struct gn_err err = {0};
@@ -324,7 +325,7 @@ static void accept_connection(void *user, uint32_t events, int64_t now_ns) {
 
 /* ---- serving -------------------------------------------------------------------------------- */
 
-/* Cuts off who does not read for too long, and wakes up for the next one. */
+/* Closes clients that have not read their reply in time; sets the timer for the next. */
 static void cut_stuck(struct gn_control *c) {
     for (int i = 0; i < CLIENTS; i++) {
         if (!c->clients[i] || !c->clients[i]->out) continue;
