@@ -31,7 +31,7 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
                         "precision highp usampler2D;\n");
     for (int i = 0; i < GN_FEATURE_COUNT; i++) {
         const char *name = gn_features[i].glsl;
-        bool on = key->features >> gn_features[i].bit & 1;
+        bool on = key->features >> i & 1;
         gn_gl_text_add(out, "const bool %s = %s;\n", name, on ? "true" : "false");
         if (on) gn_gl_text_add(out, "#define WITH_%s 1\n", name);
     }
@@ -64,10 +64,11 @@ static void add_material(const struct gn_program_key *key, struct gn_gl_text *ou
             gn_gl_text_add(&each, " F(u_texture_%s, v_uv_%s, SLOT_%s, %s_UV1)", name, name, glsl,
                            glsl);
     }
-    gn_gl_text_add(out, "#define EACH_TEXTURE(F)%s\nconst int SLOT_COUNT = %d;\n",
-                   each.data ? each.data : "", GN_TEXTURE_SLOT_COUNT);
+    gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
+    if (each.size > 0) gn_gl_text_add_bytes(out, each.data, each.size);
     gn_gl_text_finish(&each);
-    gn_gl_text_add(out, "const int LAYER_COUNT = %d;\n", GN_LAYER_COUNT);
+    gn_gl_text_add(out, "\nconst int SLOT_COUNT = %d;\nconst int LAYER_COUNT = %d;\n",
+                   GN_TEXTURE_SLOT_COUNT, GN_LAYER_COUNT);
 #define GN_X(LAYER, NAME, first, components, ...)                                                  \
     gn_gl_text_add(out, "#define FACTOR_%s u_factors[%d].%.*s\n", #NAME, 1 + GN_LAYER_##LAYER,     \
                    components, &"xyzw"[first]);
@@ -394,7 +395,7 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
     }
     const char *separator = " ";
     for (int i = 0; i < GN_FEATURE_COUNT; i++) {
-        if (!(key->features >> gn_features[i].bit & 1)) continue;
+        if (!(key->features >> i & 1)) continue;
         append_word(out, size, separator, gn_features[i].glsl);
         separator = "|";
     }
