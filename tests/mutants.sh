@@ -47,10 +47,16 @@ done < tests/mutants.txt
 # path_of TEST: a program's source, or a script
 path_of() { ls tests/*/"$1".c "tests/$1" tests/*/"$1" 2> /dev/null | head -n 1; }
 
-# goal_of TEST: the goal of make that runs its quick form
-goal_of() {
-    case $1 in accept_*) echo accept && return ;; esac
-    awk -v name="$1" '$1 == name && / accept/ { goal = "accept" } END { print goal ? goal : "check" }' tests/timeouts
+# goals_of TEST..: the first goals of make that run one of them
+declare -A goals=()
+for goal in check accept full; do goals[$goal]=" $(tests/goal.sh $goal | tr '\n' ' ') "; done
+goals_of() {
+    local test goal
+    for test in "$@"; do
+        for goal in check accept full; do
+            [[ ${goals[$goal]} != *"/$test "* ]] || { echo $goal && break; }
+        done
+    done | sort -u | paste -sd ' '
 }
 
 # apply NAME FILE: writes the mutated file; false: the text does not occur exactly once
@@ -87,20 +93,20 @@ copy_tree() {
 
 # make_tests TEST..: builds these tests; the program, too, where one of them runs it
 make_tests() {
-    local test path goals=()
+    local test path targets=()
     for test in "$@"; do
         path=$(path_of "$test")
         case $path in
-        *.sh) goals+=(all $(grep -oE 'tool_[a-z_]+' "$path" | sort -u | sed "s,^,$build/tests/,")) ;;
-        *) goals+=("$build/tests/$test") ;;
+        *.sh) targets+=(all $(grep -oE 'tool_[a-z_]+' "$path" | sort -u | sed "s,^,$build/tests/,")) ;;
+        *) targets+=("$build/tests/$test") ;;
         esac
         case $path in
-        tests/unit/* | tests/plan/* | tests/kms/*) ! grep -qE 'GNOMON|import_help' "$path" || goals+=(all) ;;
-        *) goals+=(all build/host/make_truth) ;;
+        tests/unit/* | tests/plan/* | tests/kms/*) ! grep -qE 'GNOMON|import_help' "$path" || targets+=(all) ;;
+        *) targets+=(all build/host/make_truth) ;;
         esac
     done
     make -C "$tree" --no-print-directory -j"$(nproc)" READY=1 CONFIG=release \
-        $(printf '%s\n' "${goals[@]}" | sort -u) > "$tree/build/make.log" 2>&1
+        $(printf '%s\n' "${targets[@]}" | sort -u) > "$tree/build/make.log" 2>&1
 }
 
 # failures_in LOG: of a program of cmocka, the first of its tests that failed
@@ -134,7 +140,7 @@ run_tests() {
 join() { printf '%s' "$1" && [ $# = 1 ] || printf '; %s' "${@:2}"; }
 
 try_mutant() {
-    local test goals tests=()
+    local test tests=()
     for test in ${killers[$1]-}; do
         [[ " $broken " == *" $test "* ]] || tests+=("$test")
     done
@@ -152,12 +158,11 @@ try_mutant() {
         print_row "$1" "DOES NOT COMPILE: $(grep -m 1 'error:' "$tree/build/make.log")" && bad=1
     else
         run_tests "${tests[@]}"
-        goals=$(for test in "${failed[@]%%:*}"; do goal_of "$test"; done | sort -u | paste -sd ' ')
         if [ ${#failed[@]} = 0 ]; then
             print_row "$1" "SURVIVED ${tests[*]}${survives[$1]+, as marked}"
             [ -n "${survives[$1]-}" ] || bad=1
         else
-            print_row "$1" "killed by $(join "${failed[@]}")${passed[0]+, not by ${passed[*]}}" "$goals"
+            print_row "$1" "killed by $(join "${failed[@]}")${passed[0]+, not by ${passed[*]}}" "$(goals_of "${failed[@]%%:*}")"
             [ -z "${survives[$1]-}" ] || complain "$1: is marked as surviving"
         fi
     fi
@@ -187,7 +192,7 @@ for name in "$@"; do
     [ -n "$list" ] || continue
     apply "$name" /dev/null || complain "$name: its text does not occur exactly once in ${file[$name]-}"
     print_row "$name" "${survives[$name]+SURVIVES }${killers[$name]-}" \
-        "$(for test in ${killers[$name]-}; do goal_of "$test"; done | sort -u | paste -sd ' ')"
+        "$(goals_of ${killers[$name]-})"
 done
 [ -z "$list" ] && [ $bad = 0 ] || exit $bad
 
