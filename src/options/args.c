@@ -175,11 +175,9 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
     while (flag < end && flag->row->commands & (1u << command)) flag++;
     if (flag == end) return true;
     char takers[80] = "";
-    size_t used = 0;
     for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
         if (flag->row->commands & (1u << i))
-            used += (size_t)snprintf(takers + used, sizeof takers - used, "%s %s", used ? "," : "",
-                                     gn_commands[i].name);
+            gn_text_add(takers, sizeof takers, "%s %s", takers[0] ? "," : "", gn_commands[i].name);
     const char *name = gn_commands[command].name;
     return gn_fail_usage(err, "%s does not go with %s; it goes with%s", flag->label,
                          name ? name : "the bare gnomon", takers);
@@ -194,7 +192,7 @@ static bool load_config(struct gn_options *options, const char *path, struct gn_
 
 static bool read_lesson(struct args *args, struct gn_err *err) {
     const char *name = args->words[1];
-    if (strcmp(name, "list") == 0 || strcmp(name, "all") == 0) return true;
+    if (!name || strcmp(name, "list") == 0 || strcmp(name, "all") == 0) return true;
     const struct gn_lesson *lesson = gn_lesson_find(name, err);
     return lesson && gn_lesson_load(args->options, lesson, err);
 }

@@ -23,7 +23,7 @@ GN_COMMAND(DOCTOR, doctor, .name = "doctor", .usage = "doctor [OPTION..]", .what
            .takes = "it takes no scene")
 GN_COMMAND(CTL, ctl, .name = "ctl", .usage = "ctl [OPTION..] COMMAND [WORD..]", .what = "talks to a running kiosk",
            .examples = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
-           .words = GN_WORDS_REQUEST, .most = GN_WORDS_MAX, .takes = "too many words", .config = GN_CONFIG_OPTIONAL, .config_unless = "socket")
+           .words = GN_WORDS_REQUEST, .most = 1 + GN_CTL_WORDS_MAX, .takes = "quote what has spaces", .config = GN_CONFIG_OPTIONAL, .config_unless = "socket")
 GN_COMMAND(COMPARE, compare, .name = "compare", .usage = "compare [OPTION..] A B", .what = "measures how much two pictures differ, .png or .pfm",
            .examples = {"gnomon compare a.png b.png --diff difference.png", "gnomon compare a.pfm truth.pfm --json"},
            .words = GN_WORDS_FILES, .least = 2, .most = 2, .expects = "two pictures, A and B", .takes = "it takes two pictures")

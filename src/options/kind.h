@@ -19,7 +19,12 @@ struct gn_kind_output {
 };
 
 /* Makes the field, a const char *, a copy of the text. */
-bool gn_kind_keep(const struct gn_kind_input *in, void *field);
+static inline bool gn_kind_keep(const struct gn_kind_input *in, void *field) {
+    const char *kept = gn_arena_strdup(in->arena, in->text);
+    if (!kept) return gn_fail(in->err, "no memory left");
+    *(const char **)field = kept;
+    return true;
+}
 
 /* kind_button.c: a line, keys, names of buttons, an action */
 bool gn_kind_parse_line(struct gn_kind_input *in, void *field);

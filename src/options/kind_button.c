@@ -46,7 +46,7 @@ bool gn_kind_parse_names(struct gn_kind_input *in, void *field) {
 
 bool gn_kind_parse_action(struct gn_kind_input *in, void *field) {
     struct gn_binding *binding = field;
-    const char *kept; /* the action points into it */
+    const char *kept = NULL; /* the action points into it */
     if (!gn_kind_keep(in, &kept) || !gn_action_parse(kept, &binding->action, in->err)) return false;
     binding->bound = true;
     return true;
@@ -58,23 +58,4 @@ void gn_kind_print_action(const void *field, const struct gn_kind_output *to) {
     const struct gn_action *action = &((const struct gn_binding *)field)->action;
     gn_text_add(to->out, to->size, "%s%s%s%s", gn_action_name(action->kind), turns[action->turn],
                 action->name ? " " : "", action->name ? action->name : "");
-}
-
-static bool has_key(const char *names, unsigned key) {
-    char name[64];
-    while (gn_text_word(&names, name, sizeof name))
-        if (gn_key_find(name) == key) return true;
-    return false;
-}
-
-bool gn_value_shared(const struct gn_option_row *row, const void *a, const void *b, char *out,
-                     size_t size) {
-    if (row->kind == GN_KIND_KEYS) {
-        const char *at = *(const char *const *)a, *others = *(const char *const *)b;
-        while (gn_text_word(&at, out, size))
-            if (has_key(others, gn_key_find(out))) return true;
-        return false;
-    }
-    gn_value_text(row, a, out, size);
-    return gn_value_same(row, a, b);
 }

@@ -4,7 +4,6 @@
 
 #include "core/text.h"
 #include "options/buttons.h"
-#include "options/value.h"
 
 static bool is_of_mode(const struct gn_option_row *row);
 static bool is_of_light(const struct gn_option_row *row) { return row->of_light; }
@@ -121,18 +120,4 @@ const struct gn_option_row *gn_section_find_key(const struct gn_section_row *sec
             return &rows[i];
     }
     return NULL;
-}
-
-/* ---- one of many --------------------------------------------------------------------------- */
-
-const struct gn_override *gn_section_setting(const struct gn_section *section,
-                                             const struct gn_option_row *row) {
-    const struct gn_override *override = section->first;
-    while (override && override->row != row) override = override->next;
-    return override;
-}
-
-void gn_section_fill(const struct gn_section *section, void *out) {
-    for (const struct gn_override *o = section->first; o; o = o->next)
-        memcpy((char *)out + o->row->offset, o->value, gn_value_size(o->row->kind));
 }

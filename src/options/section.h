@@ -49,10 +49,4 @@ const char *gn_section_key(const struct gn_section_row *section, const struct gn
 const struct gn_option_row *gn_section_find_key(const struct gn_section_row *section,
                                                 const char *key);
 
-/* The setting of a row, or NULL. */
-const struct gn_override *gn_section_setting(const struct gn_section *section,
-                                             const struct gn_option_row *row);
-/* Copies what it sets into the struct in which its rows have their offsets. */
-void gn_section_fill(const struct gn_section *section, void *out);
-
 #endif

@@ -68,6 +68,12 @@ struct gn_section { /* one of many: [mode "NAME"], [light "NAME"], [button "NAME
     struct gn_override *first; /* in the order of the file; NULL: it sets nothing */
 };
 
+/* The setting of a row, or NULL. */
+const struct gn_override *gn_section_setting(const struct gn_section *section,
+                                             const struct gn_option_row *row);
+/* Copies what it sets into the struct in which its rows have their offsets. */
+void gn_section_fill(const struct gn_section *section, void *out);
+
 struct gn_scene_settings {
     union {
         const char *path;          /* NULL: the default scene inside the program */

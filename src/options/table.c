@@ -6,7 +6,6 @@
 #include "display/display.h"
 #include "frame/frame.h"
 #include "input/input.h"
-#include "options/action.h"
 #include "options/command.h"
 #include "options/settings.h"
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "core/key.h"
 #include "core/text.h"
 #include "display/kms/card.h"
 #include "frame/caps.h"
@@ -243,13 +244,6 @@ static bool parse_word(struct gn_kind_input *in, void *field) {
 
 /* ---- texts --------------------------------------------------------------------------------- */
 
-bool gn_kind_keep(const struct gn_kind_input *in, void *field) {
-    const char *kept = gn_arena_strdup(in->arena, in->text);
-    if (!kept) return gn_fail(in->err, "no memory left");
-    *(const char **)field = kept;
-    return true;
-}
-
 static bool parse_text(struct gn_kind_input *in, void *field) {
     return in->text[0] && gn_kind_keep(in, field);
 }
@@ -396,31 +390,31 @@ static const struct kind {
     void (*expect)(const struct gn_kind_output *to);
 } kinds[] = {
     /* clang-format off */
-    [GN_KIND_FLAG] = {sizeof(bool), false, parse_flag, print_flag, "yes or no"},
-    [GN_KIND_INT] = {sizeof(int), false, parse_int, print_int, "a whole number from %.0f to %.0f"},
-    [GN_KIND_NUMBER] = {sizeof(double), false, parse_number, print_number, "a number from %.9g to %.9g"},
-    [GN_KIND_SECONDS] = {sizeof(int64_t), false, parse_seconds, print_seconds, "a number from %.9g to %.9g"},
-    [GN_KIND_MS] = {sizeof(int64_t), false, parse_ms, print_ms, "a whole number from %.0f to %.0f"},
-    [GN_KIND_SIZE] = {sizeof(struct gn_size), false, parse_size, print_size, "a size WxH, each side from %.0f to %.0f"},
-    [GN_KIND_MODE] = {sizeof(struct gn_display_mode), false, parse_mode, print_mode, "WxH or WxH@HZ, each side from %.0f to %.0f"},
-    [GN_KIND_EV] = {sizeof(double), false, parse_ev, print_number, "auto or a number from %.0f to %.0f"},
-    [GN_KIND_LEVEL] = {sizeof(double), false, parse_level, print_number, "auto, none or a number from %.0f to %.0f"},
-    [GN_KIND_POINT] = {3 * sizeof(double), false, parse_point, print_point, "auto or three numbers X,Y,Z"},
-    [GN_KIND_CHOICE] = {sizeof(int), false, parse_choice, print_choice, NULL, expect_words},
-    [GN_KIND_COLOR] = {sizeof(int), false, parse_color, print_color, NULL, expect_words},
-    [GN_KIND_WORD] = {TEXT(parse_word), NULL, expect_words},
-    [GN_KIND_TECHNIQUES] = {sizeof(struct gn_technique_list), false, parse_techniques, print_techniques, NULL, expect_words},
-    [GN_KIND_TEXT] = {TEXT(parse_text), NULL, expect_text},
-    [GN_KIND_MODELINE] = {TEXT(parse_modeline), NULL, expect_text},
-    [GN_KIND_PATH] = {TEXT(parse_text), NULL, expect_text},
-    [GN_KIND_CAPS] = {TEXT(parse_caps), NULL, expect_text},
-    [GN_KIND_SCENES] = {sizeof(struct gn_scene_list), false, parse_scenes, print_scenes, NULL, expect_scenes},
-    [GN_KIND_LIMIT] = {sizeof(struct gn_limits), false, parse_limit, print_limits, NULL, expect_limit},
-    [GN_KIND_HOURS] = {sizeof(struct gn_schedule), false, parse_hours, print_hours, NULL, expect_hours},
-    [GN_KIND_LINE] = {TEXT(gn_kind_parse_line), "a line's name such as GPIO17, or label:LABEL/OFFSET such as label:pinctrl-rp1/17 (the numbers of chips change)"},
-    [GN_KIND_KEYS] = {TEXT(gn_kind_parse_keys), "one to 32 names of keys, a space between two"},
-    [GN_KIND_NAMES] = {TEXT(gn_kind_parse_names), "two or more names of other buttons, a space between two"},
-    [GN_KIND_ACTION] = {sizeof(struct gn_binding), false, gn_kind_parse_action, gn_kind_print_action, "an action"},
+    [GN_KIND_FLAG] = {sizeof(bool), false, parse_flag, print_flag, .expected = "yes or no"},
+    [GN_KIND_INT] = {sizeof(int), false, parse_int, print_int, .expected = "a whole number from %.0f to %.0f"},
+    [GN_KIND_NUMBER] = {sizeof(double), false, parse_number, print_number, .expected = "a number from %.9g to %.9g"},
+    [GN_KIND_SECONDS] = {sizeof(int64_t), false, parse_seconds, print_seconds, .expected = "a number from %.9g to %.9g"},
+    [GN_KIND_MS] = {sizeof(int64_t), false, parse_ms, print_ms, .expected = "a whole number from %.0f to %.0f"},
+    [GN_KIND_SIZE] = {sizeof(struct gn_size), false, parse_size, print_size, .expected = "a size WxH, each side from %.0f to %.0f"},
+    [GN_KIND_MODE] = {sizeof(struct gn_display_mode), false, parse_mode, print_mode, .expected = "WxH or WxH@HZ, each side from %.0f to %.0f"},
+    [GN_KIND_EV] = {sizeof(double), false, parse_ev, print_number, .expected = "auto or a number from %.0f to %.0f"},
+    [GN_KIND_LEVEL] = {sizeof(double), false, parse_level, print_number, .expected = "auto, none or a number from %.0f to %.0f"},
+    [GN_KIND_POINT] = {3 * sizeof(double), false, parse_point, print_point, .expected = "auto or three numbers X,Y,Z"},
+    [GN_KIND_CHOICE] = {sizeof(int), false, parse_choice, print_choice, .expect = expect_words},
+    [GN_KIND_COLOR] = {sizeof(int), false, parse_color, print_color, .expect = expect_words},
+    [GN_KIND_WORD] = {TEXT(parse_word), .expect = expect_words},
+    [GN_KIND_TECHNIQUES] = {sizeof(struct gn_technique_list), false, parse_techniques, print_techniques, .expect = expect_words},
+    [GN_KIND_TEXT] = {TEXT(parse_text), .expect = expect_text},
+    [GN_KIND_MODELINE] = {TEXT(parse_modeline), .expect = expect_text},
+    [GN_KIND_PATH] = {TEXT(parse_text), .expect = expect_text},
+    [GN_KIND_CAPS] = {TEXT(parse_caps), .expect = expect_text},
+    [GN_KIND_SCENES] = {sizeof(struct gn_scene_list), false, parse_scenes, print_scenes, .expect = expect_scenes},
+    [GN_KIND_LIMIT] = {sizeof(struct gn_limits), false, parse_limit, print_limits, .expect = expect_limit},
+    [GN_KIND_HOURS] = {sizeof(struct gn_schedule), false, parse_hours, print_hours, .expect = expect_hours},
+    [GN_KIND_LINE] = {TEXT(gn_kind_parse_line), .expected = "a line's name such as GPIO17, or label:LABEL/OFFSET such as label:pinctrl-rp1/17 (the numbers of chips change)"},
+    [GN_KIND_KEYS] = {TEXT(gn_kind_parse_keys), .expected = "one to 32 names of keys, a space between two"},
+    [GN_KIND_NAMES] = {TEXT(gn_kind_parse_names), .expected = "two or more names of other buttons, a space between two"},
+    [GN_KIND_ACTION] = {sizeof(struct gn_binding), false, gn_kind_parse_action, gn_kind_print_action, .expected = "an action"},
     /* clang-format on */
 };
 _Static_assert(sizeof kinds / sizeof kinds[0] == GN_KIND_COUNT, "a row per kind");
@@ -431,6 +425,25 @@ bool gn_value_same(const struct gn_option_row *row, const void *a, const void *b
     if (!kinds[row->kind].is_text) return memcmp(a, b, kinds[row->kind].size) == 0;
     const char *x = *(const char *const *)a, *y = *(const char *const *)b;
     return x == y || (x && y && strcmp(x, y) == 0);
+}
+
+static bool has_key(const char *names, unsigned key) {
+    char name[64];
+    while (gn_text_word(&names, name, sizeof name))
+        if (gn_key_find(name) == key) return true;
+    return false;
+}
+
+bool gn_value_shared(const struct gn_option_row *row, const void *a, const void *b, char *out,
+                     size_t size) {
+    if (row->kind == GN_KIND_KEYS) {
+        const char *at = *(const char *const *)a, *others = *(const char *const *)b;
+        while (gn_text_word(&at, out, size))
+            if (has_key(others, gn_key_find(out))) return true;
+        return false;
+    }
+    gn_value_text(row, a, out, size);
+    return gn_value_same(row, a, b);
 }
 
 void gn_value_text(const struct gn_option_row *row, const void *field, char *out, size_t size) {

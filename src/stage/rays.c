@@ -12,7 +12,8 @@
 
 static bool check_memory(const struct gn_stage *stage, const struct gn_plan *plan,
                          struct gn_err *err) {
-    const struct gn_scene_limits limits = gn_stage_limits(stage->settings);
+    const struct gn_scene_limits limits =
+        gn_scene_limits_or_default(&stage->settings->render.limits.all);
     const uint64_t triangles_mb = gn_raycast_bytes(stage->scene) >> 20,
                    pixels_mb = gn_plan_map_bytes(plan) >> 20;
     if (triangles_mb > limits.memory_mb)
