@@ -63,7 +63,7 @@ bool gn_show_load_nothing(struct gn_show *s, struct gn_err *err) {
     }
     s->reload = (struct gn_show_reload){.options = s->config.options,
                                         .file = s->config.file,
-                                        .scene = s->memory.scene,
+                                        .scene = s->first.scene,
                                         .first = true};
     s->config.options = o;
     return gn_stage_take(

@@ -24,8 +24,6 @@ struct health {
     struct gn_health_log log;
     char summary[160];     /* "": it has suffered from nothing so far */
     int8_t low, throttled; /* for the status, as are the next */
-    bool cma_runs_out;
-    int times[GN_HEALTH_COUNT];
     int64_t cma_mb, cma_free_mb;
     double temperature_c;
 };
@@ -93,8 +91,6 @@ static const void *health_status(void *part) {
     if (!h->log.begun) return NULL;
     h->low = last->undervoltage >= 0 || last->firmware >= 0 ? of[GN_HEALTH_VOLTAGE].lasts : -1;
     h->throttled = last->cooled >= 0 || last->firmware >= 0 ? of[GN_HEALTH_THROTTLED].lasts : -1;
-    h->cma_runs_out = of[GN_HEALTH_CMA].lasts;
-    for (int i = 0; i < GN_HEALTH_COUNT; i++) h->times[i] = (int)of[i].times;
     h->cma_mb = has_cma ? last->cma_kb / 1024 : -1;
     h->cma_free_mb = has_cma ? last->cma_free_kb / 1024 : -1;
     h->temperature_c = last->hottest_mc > 0 ? (double)last->hottest_mc * 1e-3 : NAN;
@@ -104,13 +100,13 @@ static const void *health_status(void *part) {
 static const struct gn_metric metrics[] = {
     GN_METRIC(struct health, low, "board.undervoltage", "", "the supply's voltage is too low"),
     GN_METRIC(struct health, throttled, "board.throttled", "", "the clock is lowered"),
-    GN_METRIC(struct health, cma_runs_out, "board.cma_runs_out", "",
+    GN_METRIC(struct health, log.of[GN_HEALTH_CMA].lasts, "board.cma_runs_out", "",
               "contiguous memory for screen and GPU runs out"),
-    GN_METRIC(struct health, times[GN_HEALTH_VOLTAGE], "board.undervoltages", "",
+    GN_METRIC(struct health, log.of[GN_HEALTH_VOLTAGE].times, "board.undervoltages", "",
               "how often the voltage was too low"),
-    GN_METRIC(struct health, times[GN_HEALTH_THROTTLED], "board.throttlings", "",
+    GN_METRIC(struct health, log.of[GN_HEALTH_THROTTLED].times, "board.throttlings", "",
               "how often the clock was lowered"),
-    GN_METRIC(struct health, times[GN_HEALTH_CMA], "board.cma_shortages", "",
+    GN_METRIC(struct health, log.of[GN_HEALTH_CMA].times, "board.cma_shortages", "",
               "how often contiguous memory ran out"),
     GN_METRIC(struct health, cma_mb, "board.cma_mb", "MiB", "contiguous memory"),
     GN_METRIC(struct health, cma_free_mb, "board.cma_free_mb", "MiB", "what is free of it"),

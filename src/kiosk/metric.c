@@ -14,6 +14,7 @@ static json_t *make_value(const struct gn_metric *m, const void *of) {
         return is < 0 ? json_null() : json_boolean(is);
     }
     case GN_METRIC_INT: return json_integer(*(const int *)at);
+    case GN_METRIC_UINT: return json_integer(*(const uint32_t *)at);
     case GN_METRIC_AMOUNT: {
         const int64_t amount = *(const int64_t *)at;
         return amount < 0 ? json_null() : json_integer(amount);
@@ -21,6 +22,7 @@ static json_t *make_value(const struct gn_metric *m, const void *of) {
     case GN_METRIC_COUNTER: return json_integer((json_int_t) * (const uint64_t *)at);
     case GN_METRIC_NUMBER: return gn_json_make_number(*(const double *)at);
     case GN_METRIC_TEXT: return gn_json_make_text(*(const char *const *)at);
+    case GN_METRIC_CHARS: return gn_json_make_text(at);
     case GN_METRIC_JSON: return *(json_t *const *)at;
     }
     return NULL;

@@ -13,10 +13,12 @@ enum gn_metric_kind {
     GN_METRIC_SWITCH,  /* bool */
     GN_METRIC_KNOWN,   /* int8_t: 0, 1; -1: unknown */
     GN_METRIC_INT,     /* int */
+    GN_METRIC_UINT,    /* uint32_t */
     GN_METRIC_AMOUNT,  /* int64_t; negative: unknown */
     GN_METRIC_COUNTER, /* uint64_t, which only grows */
     GN_METRIC_NUMBER,  /* double; NaN: unknown */
     GN_METRIC_TEXT,    /* const char *; NULL: none */
+    GN_METRIC_CHARS,   /* an array of char */
     GN_METRIC_JSON,    /* json_t *, a reference that is taken; NULL: the value is left out */
 };
 struct gn_metric {
@@ -33,11 +35,13 @@ struct gn_metric {
      .kind = _Generic(((type *)0)->member,                                                         \
          bool: GN_METRIC_SWITCH,                                                                   \
          int8_t: GN_METRIC_KNOWN,                                                                  \
-         int: GN_METRIC_INT,                                                                       \
+         int: GN_METRIC_INT, \
+         uint32_t: GN_METRIC_UINT,                                                                       \
          int64_t: GN_METRIC_AMOUNT,                                                                \
          uint64_t: GN_METRIC_COUNTER,                                                              \
          double: GN_METRIC_NUMBER,                                                                 \
-         const char *: GN_METRIC_TEXT,                                                             \
+         const char *: GN_METRIC_TEXT, \
+         char *: GN_METRIC_CHARS,                                                             \
          json_t *: GN_METRIC_JSON),                                                                \
      .offset = offsetof(type, member),                                                             \
      .unit = its_unit,                                                                             \

@@ -15,7 +15,6 @@
 #include "kiosk/screenshot.h"
 #include "kiosk/show.h"
 #include "kiosk/split.h"
-#include "kiosk/state.h"
 #include "kiosk/truth.h"
 #include "kiosk/turntable.h"
 #include "kiosk/viewer.h"
@@ -129,26 +128,12 @@ struct gn_show_fade {
     bool prepared;    /* the GPU has what keeping takes */
     bool keeps, kept; /* the next frame's picture is to be kept; it was */
 };
-struct gn_show_memory {       /* of [kiosk] state */
-    char path[PATH_MAX];      /* "": none */
-    char good[2][PATH_MAX];   /* the scenes shown last before the start; "" */
-    int scene;                /* that it was, in the list of next-scene */
-    struct gn_state state;    /* to be saved next */
-    int older;                /* as gn_state_read() has it */
-    struct gn_keeper *keeper; /* NULL: nothing is saved */
-    struct gn_watch done;
-    struct gn_timer timer;     /* of the next save */
-    bool begun;                /* the first one */
-    bool changed;              /* since the last one began, */
-    int64_t saved_ns;          /* which was then; 0: none was */
-    int64_t seen_ns, shown_ns; /* the last look; what is left of a second */
-    uint64_t frames, presses;  /* of gn_show_counts, then */
-};
-/* The first scene could not be loaded, and another is shown in its place. */
+/* The first scene: it may not be loaded, and another be shown in its place. */
 struct gn_show_first {
+    int scene;              /* in the list of next-scene, as the state has it */
     char lost[GN_SHOW_WHY]; /* why; "": it was loaded */
     const char *instead;    /* what is shown */
-    int tries;              /* of memory.good */
+    int tries;              /* of the scenes of the state */
 };
 struct gn_show {
     struct gn_show_config config;
@@ -175,7 +160,6 @@ struct gn_show {
     int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.at.fade */
     struct gn_show_counts counts;
     struct gn_parts parts;
-    struct gn_show_memory memory;
     struct gn_show_first first;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
@@ -197,8 +181,6 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 
 /* ---- remember.c: [kiosk] state --------------------------------------------------------------- */
 
-/* After the options are read: the mode and scene that the state has, put into them. */
-void gn_show_recall(struct gn_show *show);
 /* Whether there is another scene to load in place of the first, which could not be: the options
  * then name it. */
 bool gn_show_try_other(struct gn_show *show, struct gn_options **options,

@@ -251,7 +251,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
         gn_loaded_drop(r->loaded);
         r->loaded = NULL;
         r->file = s->config.file;
-        r->scene = s->memory.scene;
+        r->scene = s->first.scene;
     }
     if (r->loaded) {
         if (look_at_loaded(s, &look, &why)) {
@@ -286,7 +286,7 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
         gn_loaded_drop(s->reload.loaded);
         s->reload.loaded = NULL;
         o = s->config.options->settings;
-        gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->memory.scene), o);
+        gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->first.scene), o);
         while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
             gn_loop_step(s->loop, until_ns);
         if (s->ends) return false;

@@ -155,7 +155,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     gn_show_open_captions(s);
     if (!gn_show_begin(s, err)) return false;
     if (!s->reload.first) { /* where the list of next-scene was */
-        s->kiosk.shown.scene = s->kiosk.wanted.scene = s->memory.scene;
+        s->kiosk.shown.scene = s->kiosk.wanted.scene = s->first.scene;
         s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
     }
     if (!gn_show_open_display(s, err)) return false;

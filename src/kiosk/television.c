@@ -13,7 +13,7 @@ struct television {
     struct gn_television_state state; /* after the last attempt */
     bool is_set, on;                  /* what was wanted last */
     char connector[64];
-    const char *wanted, *told, *reached, *waits; /* for the status */
+    const char *wanted, *told, *waits; /* for the status */
 };
 
 static void take_state(void *user, uint32_t events, int64_t now_ns) {
@@ -94,7 +94,6 @@ static const void *television_status(void *part) {
                        : t->on    ? GN_TELEVISION_ON
                                   : GN_TELEVISION_STANDBY];
     t->told = wishes[state->told];
-    t->reached = state->device;
     t->waits = state->waits[0] ? state->waits : NULL;
     return t;
 }
@@ -102,7 +101,7 @@ static const void *television_status(void *part) {
 static const struct gn_metric metrics[] = {
     GN_METRIC(struct television, wanted, "television.wanted", "", "what it is to be"),
     GN_METRIC(struct television, told, "television.told", "", "what it has acknowledged last"),
-    GN_METRIC(struct television, reached, "television.device", "", "the CEC adapter"),
+    GN_METRIC(struct television, state.device, "television.device", "", "the CEC adapter"),
     GN_METRIC(struct television, waits, "television.waits", "", "why it is not what is wanted"),
     GN_METRIC(struct television, state.attempts, "television.attempts", "",
               "how often it was sent to"),

@@ -283,7 +283,7 @@ static bool is_in_loop(struct gn_show *show, const char *from, size_t size) {
 static void open_part(struct gn_show *show, int part) {
     const struct gn_part *row = show->parts.rows[part];
     void *of = show->parts.of[part];
-    if (row->begin && !row->open) row->begin(of);
+    if (row->begin) row->begin(of);
     gn_part_open(&show->parts, part);
     if (row->loaded) row->loaded(of, GN_PART_LOAD_SCENE);
 }

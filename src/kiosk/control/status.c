@@ -15,12 +15,12 @@
 struct status {
     const struct gn_part_host *host;
     const char *version, *mode, *scene, *plays;
-    const char *backend, *what, *status, *range, *config, *error, *problem;
-    int pid, camera, width, height, rotate, median_frames, worst_frames, pointers, fps;
-    bool paused, blanked, info, waits, lit;
+    const char *backend, *range, *config, *error, *problem;
+    int pid, camera, median_frames, worst_frames, pointers, fps;
+    bool paused, blanked, info, waits;
     double uptime_s, median_ms, worst_ms;
     uint64_t drawn, seen;
-    struct gn_screen_counts frames;
+    struct gn_screen screen;
     json_t *modes, *lights;
 };
 
@@ -69,7 +69,6 @@ static const void *kiosk_status(void *part) {
     const struct gn_kiosk *k = &s->kiosk;
     const struct gn_options *o = s->config.options;
     const struct gn_display *display = &s->stage.display;
-    const struct gn_screen *screen = &display->screen;
     const struct gn_latency_report latency = gn_latency_read(&s->buttons.latency);
     const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &k->wanted)];
     const int clip = k->play.clip_plus_1 - 1;
@@ -91,15 +90,9 @@ static const void *kiosk_status(void *part) {
         .modes = modes_json(&s->modes),
         .lights = lights_json(s),
         .backend = display->ops ? display->ops->name : "",
-        .what = screen->what,
-        .status = screen->status,
-        .lit = screen->lit,
-        .width = (int)screen->width_px,
-        .height = (int)screen->height_px,
-        .rotate = (int)screen->rotate_deg,
-        .range = ranges[screen->range],
+        .screen = display->screen,
+        .range = ranges[display->screen.range],
         .drawn = s->counts.frames,
-        .frames = screen->counts,
         .seen = latency.count,
         .median_ms = (double)latency.median.ns * 1e-6,
         .worst_ms = (double)latency.worst.ns * 1e-6,
@@ -130,21 +123,23 @@ static const struct gn_metric kiosk_metrics[] = {
     METRIC(modes, "modes", "", "names of all modes"),
     METRIC(lights, "lights", "", "of each [light NAME]: what is set"),
     METRIC(backend, "screen.backend", "", "the display"),
-    METRIC(what, "screen.what", "", "connector and mode in use"),
-    METRIC(status, "screen.status", "", "what is waited for"),
-    METRIC(lit, "screen.lit", "", "it shows a picture"),
-    METRIC(width, "screen.width", "px", "of the screen"),
-    METRIC(height, "screen.height", "px", "of the screen"),
-    METRIC(rotate, "screen.rotate", "degrees", "clockwise"),
+    METRIC(screen.what, "screen.what", "", "connector and mode in use"),
+    METRIC(screen.status, "screen.status", "", "what is waited for"),
+    METRIC(screen.lit, "screen.lit", "", "it shows a picture"),
+    METRIC(screen.width_px, "screen.width", "px", "of the screen"),
+    METRIC(screen.height_px, "screen.height", "px", "of the screen"),
+    METRIC(screen.rotate_deg, "screen.rotate", "degrees", "clockwise"),
     METRIC(range, "screen.range", "", "levels of the signal"),
     METRIC(drawn, "frames.drawn", "frames", "by the GPU"),
-    METRIC(frames.shown, "frames.shown", "frames", "flips that completed, repeats included"),
-    METRIC(frames.again, "frames.again", "frames", "of them, repeats of the one before"),
-    METRIC(frames.missed, "frames.missed", "frames", "refreshes missed while one was in flight"),
-    METRIC(frames.retried, "frames.retried", "", "commits that were refused for a while"),
-    METRIC(frames.stalled, "frames.stalled", "frames", "flips that did not complete in time"),
-    METRIC(frames.relit, "frames.relit", "", "modesets"),
-    METRIC(frames.opened, "frames.opened", "", "how often a card was opened"),
+    METRIC(screen.counts.shown, "frames.shown", "frames", "flips that completed, repeats included"),
+    METRIC(screen.counts.again, "frames.again", "frames", "of them, repeats of the one before"),
+    METRIC(screen.counts.missed, "frames.missed", "frames",
+           "refreshes missed while one was in flight"),
+    METRIC(screen.counts.retried, "frames.retried", "", "commits that were refused for a while"),
+    METRIC(screen.counts.stalled, "frames.stalled", "frames",
+           "flips that did not complete in time"),
+    METRIC(screen.counts.relit, "frames.relit", "", "modesets"),
+    METRIC(screen.counts.opened, "frames.opened", "", "how often a card was opened"),
     METRIC(seen, "input.seen", "", "edges of buttons whose effect was shown"),
     METRIC(median_ms, "input.median_ms", "ms", "from an edge to its frame"),
     METRIC(worst_ms, "input.worst_ms", "ms", "from an edge to its frame"),
