@@ -39,5 +39,5 @@ int64_t gn_show_shift_due_ns(const struct gn_show *s) {
 void gn_show_shift(struct gn_show *s) {
     if (s->truth.on) return; /* whose rays would begin anew */
     s->shifted_minute = minute_at(s, gn_loop_now_ns(s->loop));
-    gn_shift_at(s->shifted_minute, most_px(s), s->stage.frame_opts.view.shift_px);
+    gn_shift_at(s->shifted_minute, most_px(s), s->stage.shown.opts.view.shift_px);
 }

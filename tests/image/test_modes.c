@@ -106,7 +106,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
         act(show, GN_ACTION_NEXT);
         frames(show, 1);
         assert_int_equal(show->drawn.mode, next);
-        const struct gn_frame_opts *opts = &show->stage.frame_opts;
+        const struct gn_frame_opts *opts = &show->stage.shown.opts;
         assert_string_equal(
             show->modes.names[next],
             gn_techniques[opts->shadow.technique_given ? opts->shadow.technique : GN_TECHNIQUE_PCF]
