@@ -31,31 +31,6 @@ static bool check_memory(const struct gn_stage *stage, const struct gn_plan *pla
     return true;
 }
 
-static void init_eye(const struct gn_view *of, const struct gn_plan *plan, struct gn_ray_eye *eye) {
-    const struct gn_frame_view_opts *view = &of->opts.view;
-    const struct gn_box *box = &of->pose->scene->box;
-    double centre[3];
-    for (int k = 0; k < 3; k++) centre[k] = .5 * ((double)box->min[k] + (double)box->max[k]);
-    const int w = (int)plan->width_px, h = (int)plan->height_px;
-    struct gn_framing_opts opts = view->framing;
-    struct gn_framing framing;
-    opts.aspect = (float)w / (float)h;
-    if (view->light_plus_1 > 0) {
-        gn_frame_light_camera(of->pose, view->light_plus_1 - 1, opts.aspect, &framing.camera,
-                              framing.view_from_world, framing.eye_ws);
-    } else {
-        gn_orbit_view(&view->orbit, of->pose, (uint32_t)view->camera, &opts, &framing);
-    }
-    gn_ray_eye_look(eye, &framing, w, h);
-    if (eye->orthographic && !gn_orbit_is_zero(&view->orbit)) {
-        float half[2];
-        gn_orbit_ortho_half(&view->orbit, &framing.camera, opts.aspect, half);
-        eye->half_width = (double)half[0];
-        eye->half_height = (double)half[1];
-    }
-    if (view->turntable_rad != 0.0f) gn_ray_eye_turn(eye, centre, (double)view->turntable_rad);
-}
-
 /* The rasteriser may draw a pixel of an outline whose middle a ray just misses: it takes the value
  * beside it. */
 static float beside(const float *seen, const struct gn_ray_eye *eye, int x, int y) {
@@ -113,7 +88,10 @@ static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
         rays->seen[i] = gn_picture_alloc(pixels, sizeof *rays->seen[i], err);
         if (!rays->seen[i]) return false;
     }
-    init_eye(view, plan, &rays->eye);
+    const int width_px = (int)plan->width_px, height_px = (int)plan->height_px;
+    struct gn_framing framing;
+    gn_frame_camera(view->pose, &view->opts.view, (float)width_px / (float)height_px, &framing);
+    gn_ray_eye_look(&rays->eye, &framing, width_px, height_px);
     return true;
 }
 
