@@ -47,10 +47,11 @@ struct bench {
 static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *e, uint32_t frame,
                                            struct gn_err *err) {
     struct gn_stage *stage = &b->stage;
-    stage->frame_opts = e->opts;
-    gn_stage_pose(stage, b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS);
+    stage->shown.opts = e->opts;
+    gn_view_pose(&stage->shown, b->settings,
+                 b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS);
     gn_bench_move_step(&b->move, &stage->pose, frame);
-    return gn_stage_plan(stage, b->warnings, err);
+    return gn_view_plan(&stage->shown, stage->gl, b->warnings, err);
 }
 
 static bool draw_frame(struct bench *b, const struct entry *e, uint32_t frame, struct gn_err *err) {
@@ -153,7 +154,7 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
     b->report->runs = gn_xalloc(b->report->run_count, sizeof *b->report->runs);
     for (uint32_t i = 0; i < b->report->run_count; i++) {
         struct entry *e = &b->entries[i];
-        e->opts = b->stage.frame_opts;
+        e->opts = b->stage.shown.opts;
         if (given) GN_LIGHT_SET(&e->opts.shadow.any, technique, (enum gn_technique)list->items[i]);
         e->run = &b->report->runs[i];
         e->ms = gn_xalloc(b->frames, sizeof *e->ms);

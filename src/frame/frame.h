@@ -104,10 +104,11 @@ struct gn_frame_opts {
 /* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from
  * +Z, towards +X. Moved by the user and by the turntable; never that of a light. */
 float gn_frame_camera_azimuth(const struct gn_pose *pose, const struct gn_frame_view_opts *view);
-/* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
- * what casts. */
-void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
-                           struct gn_camera *camera, mat4 view_from_world, vec3 eye_ws);
+/* The camera of a picture of this shape, which plans and rays both are of: moved by the user and
+ * the turntable, its near and far planes around the scene, its orthographic half-sizes those of the
+ * picture. */
+void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts *view,
+                     float aspect, struct gn_framing *framing);
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing
                   */

@@ -328,6 +328,10 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
 /* eye.c: clip_from_world of the camera, its position and their constants. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]);
+/* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
+ * what casts. */
+void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
+                           struct gn_framing *framing);
 /* The same camera at another pose. */
 void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
                      const struct gn_frame_opts *opts, struct gn_eye *eye);

@@ -61,7 +61,7 @@ bool gn_show_bar_moves(const struct gn_show *s) {
 
 void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
     struct gn_show_text *t = &s->text;
-    struct gn_frame_opts *f = &s->stage.frame_opts;
+    struct gn_frame_opts *f = &s->stage.shown.opts;
     const bool on_side = f->output.turn_deg / 90 % 2;
 
     /* captions of changes: a text is set only when it changes */

@@ -156,12 +156,8 @@ static void choose_clips(struct gn_show *s, const struct gn_kiosk_view *view, in
 
 void gn_show_enter(struct gn_show *s) {
     const struct gn_stage_look *look = &s->looks.of[s->kiosk.shown.mode];
-    const struct gn_frame_opts before = s->stage.frame_opts;
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
-    s->stage.frame_opts = look->frame_opts;
-    s->stage.frame_opts.output = before.output; /* the screen's */
-    if (look->frame_opts.view.camera == before.view.camera)
-        s->stage.frame_opts.view.orbit = before.view.orbit;
+    gn_view_enter(&s->stage.shown, &look->frame_opts);
     /* the last frame is of the time at which it is seen, which may be later */
     const int64_t loop_ns = gn_loop_now_ns(s->loop),
                   now_ns = loop_ns > s->kiosk.seen_ns ? loop_ns : s->kiosk.seen_ns;
@@ -174,7 +170,7 @@ void gn_show_enter(struct gn_show *s) {
 
 void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view, int64_t seen_ns) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
-    struct gn_frame_opts *f = &s->stage.frame_opts;
+    struct gn_frame_opts *f = &s->stage.shown.opts;
     choose_clips(s, view, seen_ns);
     const uint32_t camera =
         ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;

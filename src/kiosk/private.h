@@ -76,7 +76,7 @@ struct gn_show_scenes {
     struct gn_watch loader_watch;
     int64_t load_begun_ns;
     struct gn_loaded *staged;   /* loaded, to be shown next, or a reload's; NULL: none */
-    struct gn_frame *frame;     /* of the staged scene, while there is a context */
+    struct gn_view view;        /* of it, for its programs; its pose once the upload has begun */
     bool whole;                 /* all of the staged scene is on the GPU */
     struct gn_show_looks looks; /* of the staged scene; a reload's has one, at 0 */
 };

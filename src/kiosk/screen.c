@@ -48,7 +48,7 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool direct = s->stage.display.ops->screen && !screen->copy_to;
     const struct gn_gl_window window = {screen->width_px, screen->height_px, screen->srgb};
-    struct gn_frame_output_opts *output = &s->stage.frame_opts.output;
+    struct gn_frame_output_opts *output = &s->stage.shown.opts.output;
     const struct gn_frame_output_opts before = *output;
     *output = (struct gn_frame_output_opts){
         .width_px = screen->width_px,
@@ -125,11 +125,12 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     if (screen->may_draw) return true;
 
     /* without a monitor the programs are made by drawing a small frame */
-    s->stage.frame_opts.output.width_px = 64;
-    s->stage.frame_opts.output.height_px = 36;
-    s->stage.frame_opts.cover.captions = NULL; /* those are laid out for another size */
+    s->stage.shown.opts.output.width_px = 64;
+    s->stage.shown.opts.output.height_px = 36;
+    s->stage.shown.opts.cover.captions = NULL; /* those are laid out for another size */
     gn_gl_set_window(s->stage.gl, NULL);
-    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
+    if (!gn_view_draw(&s->stage.shown, &s->stage, s->stage.settings->scene.time_ns, s->warnings,
+                      err))
         return show_failure(s, err);
     gn_gl_finish_frame(s->stage.gl); /* many drivers compile at the first draw */
     return true;

@@ -30,32 +30,6 @@ static bool check_memory(const struct gn_stage *stage, const struct gn_plan *pla
     return true;
 }
 
-static void init_eye(const struct gn_stage *stage, const struct gn_plan *plan,
-                     struct gn_ray_eye *eye) {
-    const struct gn_frame_view_opts *view = &stage->frame_opts.view;
-    const struct gn_box *box = &stage->scene->box;
-    double centre[3];
-    for (int k = 0; k < 3; k++) centre[k] = .5 * ((double)box->min[k] + (double)box->max[k]);
-    const int w = (int)plan->width_px, h = (int)plan->height_px;
-    struct gn_framing_opts opts = view->framing;
-    struct gn_framing framing;
-    opts.aspect = (float)w / (float)h;
-    if (view->light_plus_1 > 0) {
-        gn_frame_light_camera(&stage->pose, view->light_plus_1 - 1, opts.aspect, &framing.camera,
-                              framing.view_from_world, framing.eye_ws);
-    } else {
-        gn_orbit_view(&view->orbit, &stage->pose, (uint32_t)view->camera, &opts, &framing);
-    }
-    gn_ray_eye_look(eye, &framing, w, h);
-    if (eye->orthographic && !gn_orbit_is_zero(&view->orbit)) {
-        float half[2];
-        gn_orbit_ortho_half(&view->orbit, &framing.camera, opts.aspect, half);
-        eye->half_width = (double)half[0];
-        eye->half_height = (double)half[1];
-    }
-    if (view->turntable_rad != 0.0f) gn_ray_eye_turn(eye, centre, (double)view->turntable_rad);
-}
-
 /* The rasteriser may draw a pixel of an outline whose middle a ray just misses: it takes the value
  * beside it. */
 static float beside(const float *seen, const struct gn_ray_eye *eye, int x, int y) {
@@ -96,10 +70,10 @@ struct gn_rays {
 };
 
 static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
-                      const struct gn_plan *plan, struct gn_err *err) {
+                      const struct gn_view *view, const struct gn_plan *plan, struct gn_err *err) {
     const size_t pixels = (size_t)plan->width_px * plan->height_px;
-    rays->scene = stage->scene;
-    rays->pose = &stage->pose;
+    rays->scene = view->pose->scene;
+    rays->pose = view->pose;
     rays->samples = stage->settings->run.samples;
     for (uint32_t i = 0; i < plan->shadow_count; i++)
         if (plan->shadows[i].encoding == GN_ENCODING_SCREEN) rays->slots[rays->count++] = i;
@@ -107,14 +81,16 @@ static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
     if (!check_memory(stage, plan, err)) return false;
     for (uint32_t i = 0; i < rays->count; i++) {
         const uint32_t light = plan->shadows[rays->slots[i]].light;
-        gn_ray_lamp_init(&rays->lamps[i], &stage->pose, light);
+        gn_ray_lamp_init(&rays->lamps[i], view->pose, light);
         rays->lamps[i].radius =
-            (double)gn_frame_light_opts(stage->frame, &stage->pose, &stage->frame_opts, light)
-                .radius;
+            (double)gn_frame_light_opts(view->builder, view->pose, &view->opts, light).radius;
         rays->seen[i] = gn_picture_alloc(pixels, sizeof *rays->seen[i], err);
         if (!rays->seen[i]) return false;
     }
-    init_eye(stage, plan, &rays->eye);
+    const int width_px = (int)plan->width_px, height_px = (int)plan->height_px;
+    struct gn_framing framing;
+    gn_frame_camera(view->pose, &view->opts.view, (float)width_px / (float)height_px, &framing);
+    gn_ray_eye_look(&rays->eye, &framing, width_px, height_px);
     return true;
 }
 
@@ -163,12 +139,13 @@ static bool cast_now(struct gn_stage *stage, const struct gn_plan *plan, struct 
     return true;
 }
 
-bool gn_stage_cast(struct gn_stage *stage, const struct gn_plan *plan, struct gn_err *err) {
+bool gn_stage_cast(struct gn_stage *stage, const struct gn_view *view, const struct gn_plan *plan,
+                   struct gn_err *err) {
     struct gn_rays rays = {.count = 0};
-    if (stage->truth.given) return give(stage, plan, stage->truth.given, err);
+    if (view->rays) return give(stage, plan, view->rays, err);
     free(stage->truth.visibility);
     stage->truth.visibility = NULL;
-    bool ok = init_rays(&rays, stage, plan, err);
+    bool ok = init_rays(&rays, stage, view, plan, err);
     if (ok && rays.count > 0) ok = cast_now(stage, plan, &rays, err);
     finish_rays(&rays);
     return ok;
@@ -207,11 +184,11 @@ static bool start(struct gn_rays *rays, struct gn_err *err) {
     return rays->started || gn_fail(err, "truth: no thread: %s", strerror(error));
 }
 
-struct gn_rays *gn_rays_begin(struct gn_stage *stage, const struct gn_plan *plan,
-                              struct gn_err *err) {
+struct gn_rays *gn_rays_begin(const struct gn_stage *stage, const struct gn_view *view,
+                              const struct gn_plan *plan, struct gn_err *err) {
     struct gn_rays *rays = gn_xalloc(1, sizeof *rays);
-    bool ok = init_rays(rays, stage, plan, err);
-    if (ok) copy_pose(rays, &stage->pose);
+    bool ok = init_rays(rays, stage, view, plan, err);
+    if (ok) copy_pose(rays, view->pose);
     ok = ok && start(rays, err);
     if (ok) return rays;
     gn_rays_destroy(rays);

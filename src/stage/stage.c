@@ -11,7 +11,6 @@
 #include "stage/environment.h"
 #include "stage/import.h"
 #include "stage/lights.h"
-#include "stage/rays.h"
 #include "stage/wake.h"
 
 /* "lesson:solids" */
@@ -238,12 +237,12 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     *stage = (struct gn_stage){.settings = settings, .scene = scene};
     struct gn_stage_look look;
     if (!scene || !gn_stage_look_build(&look, settings, scene, warnings, err)) return false;
-    stage->frame_opts = look.frame_opts;
+    stage->shown = (struct gn_view){.opts = look.frame_opts, .pose = &stage->pose};
     gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_choose_variant(&stage->pose, look.variant);
     stage->pose.at.run = look.run;
     gn_pose_step(&stage->pose, settings->scene.time_ns);
-    gn_stage_aim(&stage->pose, &stage->frame_opts, settings);
+    gn_stage_aim(&stage->pose, &stage->shown.opts, settings);
     return true;
 }
 
@@ -265,15 +264,13 @@ bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, str
         .debug = o->run.verbose,
     };
     stage->gl = gn_gl_create(&opts, warnings, err);
-    if (!stage->gl || !gn_gl_load(stage->gl, stage->scene, err)) return false;
-    stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
-    return true;
+    return stage->gl && gn_gl_load(stage->gl, stage->scene, err);
 }
 
 void gn_stage_stop_gl(struct gn_stage *stage) {
-    gn_frame_destroy(stage->frame);
+    gn_frame_destroy(stage->shown.builder);
     gn_gl_destroy(stage->gl);
-    stage->frame = NULL;
+    stage->shown.builder = NULL;
     stage->gl = NULL;
 }
 
@@ -290,52 +287,18 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
     return true;
 }
 
-const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
-                                    struct gn_err *err) {
-    const struct gn_plan *plan =
-        gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
-    while (!gn_gl_prove(stage->gl, plan)) {
-        gn_frame_destroy(stage->frame);
-        stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
-        plan = gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
-    }
-    stage->is_behind = plan->is_behind;
-    if (gn_gl_prepare(stage->gl, plan, err)) return plan;
-    const char *source = gn_gl_failed_source(stage->gl);
-    if (source) fputs(source, stderr);
-    return NULL;
-}
-
 /* 256 MB of samples, with colour and depth of 4 bytes each: a picture of 3840 x 2160. */
 enum { MSAA_MOST_PIXELS = 8 << 20 };
 
 uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t height_px,
                        bool to_file) {
     const struct gn_settings *o = stage->settings;
-    const struct gn_frame_opts *f = &stage->frame_opts;
+    const struct gn_frame_opts *f = &stage->shown.opts;
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     if (o->render.msaa != GN_MSAA_AUTO) return (uint32_t)o->render.msaa;
     const bool measured = f->output.linear || f->output.floats || casts_rays(&f->shadow);
     if (measured || !(caps->has & 1u << GN_CAP_MSAA4) || !(caps->tiler || to_file)) return 0;
     return (uint64_t)width_px * height_px <= MSAA_MOST_PIXELS ? 4 : 0;
-}
-
-void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
-    gn_pose_step(&stage->pose, time_ns);
-    double turned_deg =
-        fmod(stage->settings->scene.turntable_deg_s * ((double)(time_ns - stage->rested_ns) * 1e-9),
-             360.0);
-    stage->frame_opts.view.turntable_rad = glm_rad((float)turned_deg);
-    gn_stage_aim(&stage->pose, &stage->frame_opts, stage->settings);
-}
-
-const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
-                                    struct gn_warnings *warnings, struct gn_err *err) {
-    gn_stage_pose(stage, time_ns);
-    const struct gn_plan *plan = gn_stage_plan(stage, warnings, err);
-    const bool ok =
-        plan && gn_stage_cast(stage, plan, err) && gn_gl_run(stage->gl, plan, NULL, err);
-    return ok ? plan : NULL;
 }
 
 void gn_stage_close(struct gn_stage *stage) {

@@ -107,7 +107,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
         act(show, GN_ACTION_NEXT);
         frames(show, 1);
         assert_int_equal(show->drawn.mode, next);
-        const struct gn_light_opts *any = &show->stage.frame_opts.shadow.any;
+        const struct gn_light_opts *any = &show->stage.shown.opts.shadow.any;
         assert_string_equal(
             show->modes.names[next],
             gn_techniques[GN_LIGHT_HAS(any, technique) ? any->technique : GN_TECHNIQUE_PCF].name);

@@ -37,15 +37,15 @@ static void test_rays_of_a_thread_are_those_of_the_picture(void **state) {
     if (!gn_args_parse(&options, 12, argv, &warnings, &err) ||
         !gn_stage_take(&stage, options.settings, make_unlit(), &warnings, &err) ||
         !gn_stage_open(&stage, &warnings, &err) ||
-        !gn_stage_draw(&stage, GN_NS_PER_S, &warnings, &err) ||
+        !gn_view_draw(&stage.shown, &stage, GN_NS_PER_S, &warnings, &err) ||
         !gn_gl_read_f32(stage.gl, once[0], &err) ||
-        !(plan = gn_stage_plan(&stage, &warnings, &err)))
+        !(plan = gn_view_plan(&stage.shown, stage.gl, &warnings, &err)))
         fail_msg("%s", err.text);
-    struct gn_rays *rays = gn_rays_begin(&stage, plan, &err);
+    struct gn_rays *rays = gn_rays_begin(&stage, &stage.shown, plan, &err);
     if (!rays) fail_msg("%s", err.text);
     while (!gn_rays_are_done(rays)) usleep(1000);
-    stage.truth.given = rays;
-    assert_non_null(gn_stage_draw(&stage, GN_NS_PER_S, &warnings, &err));
+    stage.shown.rays = rays;
+    assert_non_null(gn_view_draw(&stage.shown, &stage, GN_NS_PER_S, &warnings, &err));
     assert_true(gn_gl_read_f32(stage.gl, again[0], &err));
     assert_memory_equal(once, again, sizeof once);
     int dark = 0;
