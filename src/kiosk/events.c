@@ -1,33 +1,12 @@
-/* Actions as events of the machine; problems. */
+/* Actions as events of the machine. */
 #include <stdarg.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "core/text.h"
 #include "kiosk/private.h"
 
-void gn_show_report_problem(struct gn_show *s, enum gn_problem kind, const char *text) {
-    struct gn_show_problems *p = &s->text.problems;
-    if (strcmp(p->of[kind], text) == 0) return;
-    snprintf(p->of[kind], sizeof p->of[kind], "%s", text);
-    p->begun[kind] = ++p->count;
-    fprintf(stderr, "gnomon: warning: %s\n", text);
-}
-
-void gn_show_cure_problem(struct gn_show *s, enum gn_problem kind) {
-    s->text.problems.of[kind][0] = '\0';
-}
-
-const char *gn_show_problem(const struct gn_show *s) {
-    const struct gn_show_problems *p = &s->text.problems;
-    int last = -1;
-    for (int i = 0; i < GN_PROBLEM_COUNT; i++)
-        if (p->of[i][0] && (last < 0 || p->begun[i] > p->begun[last])) last = i;
-    return last < 0 ? NULL : p->of[last];
-}
-
 void gn_show_report_error(struct gn_show *s, enum gn_problem kind, const char *text) {
-    gn_show_report_problem(s, kind, text);
+    gn_problem_report(&s->problems, kind, text);
     if (s->config.options->config_error) return; /* the first one is likely the cause */
     snprintf(s->config.error, sizeof s->config.error, "%s", text);
     s->config.options->config_error = s->config.error;
@@ -80,8 +59,8 @@ void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time
         .clip_ns = clip < 0 ? 0 : s->stage.scene->animation.clips[clip].duration_ns};
     struct gn_err err = {0};
     if (!gn_show_check_action(s, action, &err))
-        gn_show_report_problem(s, GN_PROBLEM_ACTION, err.text);
+        gn_problem_report(&s->problems, GN_PROBLEM_ACTION, err.text);
     else if (action->kind == GN_ACTION_MODE || action->kind == GN_ACTION_PLAY)
-        gn_show_cure_problem(s, GN_PROBLEM_ACTION);
+        gn_problem_cure(&s->problems, GN_PROBLEM_ACTION);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
 }

@@ -7,20 +7,14 @@
 
 #include "caption/captions.h"
 #include "core/loop.h"
-#include "display/television.h"
-#include "kiosk/content.h"
 #include "kiosk/control/answer.h"
 #include "kiosk/info_page.h"
 #include "kiosk/latency.h"
 #include "kiosk/machine.h"
+#include "kiosk/part.h"
 #include "kiosk/screenshot.h"
-#include "kiosk/sensor.h"
-#include "kiosk/service.h"
-#include "kiosk/shaders.h"
 #include "kiosk/show.h"
 #include "kiosk/split.h"
-#include "kiosk/state.h"
-#include "kiosk/stats.h"
 #include "kiosk/truth.h"
 #include "kiosk/turntable.h"
 #include "kiosk/viewer.h"
@@ -45,11 +39,9 @@ struct gn_show_config {
 /* The screen's context, and what frames are drawn with in it. */
 struct gn_show_context {
     struct gn_screen_opts screen_opts;
-    uint32_t generation; /* of the context that stage.gl lives in; 0: none */
-    bool message;        /* the screen shows a text in place of pictures */
-    bool lacks_range;    /* and a problem says so */
-    bool unencoded;      /* as frames are drawn now */
-    uint32_t msaa;
+    uint32_t generation;     /* of the context that stage.gl lives in; 0: none */
+    bool message;            /* the screen shows a text in place of pictures */
+    bool lacks_range;        /* and a problem says so */
     uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
     int64_t checked_ns;      /* which was then */
 };
@@ -84,7 +76,7 @@ struct gn_show_scenes {
     struct gn_watch loader_watch;
     int64_t load_begun_ns;
     struct gn_loaded *staged;   /* loaded, to be shown next, or a reload's; NULL: none */
-    struct gn_frame *frame;     /* of the staged scene, while there is a context */
+    struct gn_view view;        /* of it, for its programs; its pose once the upload has begun */
     bool whole;                 /* all of the staged scene is on the GPU */
     struct gn_show_looks looks; /* of the staged scene; a reload's has one, at 0 */
 };
@@ -112,28 +104,6 @@ struct gn_show_reload {
     char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
 };
 
-/* What is wrong, one text of each kind: each ends by itself when it is cured. */
-enum gn_problem {
-    GN_PROBLEM_START,      /* of this start, for good */
-    GN_PROBLEM_CONFIG,     /* until a reload succeeds */
-    GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is */
-    GN_PROBLEM_MODE,       /* until that mode is shown, or a reload */
-    GN_PROBLEM_SCENE,      /* likewise */
-    GN_PROBLEM_WATCH,      /* changes of files are not noticed */
-    GN_PROBLEM_SHADERS,    /* of --shaders; until they can be used */
-    GN_PROBLEM_STATE,      /* until it is saved */
-    GN_PROBLEM_TELEVISION, /* until it answers */
-    GN_PROBLEM_RANGE,      /* until a connector has it, or none is asked for */
-    GN_PROBLEM_VOLTAGE,    /* of the board; until it was well for a minute, like the next two */
-    GN_PROBLEM_THROTTLED,
-    GN_PROBLEM_CMA,
-    GN_PROBLEM_COUNT,
-};
-struct gn_show_problems {
-    char of[GN_PROBLEM_COUNT][512]; /* "": none */
-    unsigned begun[GN_PROBLEM_COUNT], count;
-    int mode, scene; /* that cannot be shown */
-};
 /* Texts on the picture. */
 struct gn_show_text {
     struct gn_captions *captions;
@@ -142,8 +112,7 @@ struct gn_show_text {
     char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
-    struct gn_show_problems problems;
-    char modes[120]; /* of the split screen */
+    char modes[120];           /* of the split screen */
 };
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
@@ -159,55 +128,13 @@ struct gn_show_fade {
     bool prepared;    /* the GPU has what keeping takes */
     bool keeps, kept; /* the next frame's picture is to be kept; it was */
 };
-struct gn_show_hours { /* of [schedule] */
-    struct gn_timer timer;
-    bool is_set, was_set; /* the clock, at the last look; it was once */
-    bool dims;            /* these are hours of dim */
-};
-struct gn_show_memory {       /* of [kiosk] state */
-    char path[PATH_MAX];      /* "": none */
-    char good[2][PATH_MAX];   /* the scenes shown last before the start; "" */
-    int scene;                /* that it was, in the list of next-scene */
-    struct gn_state state;    /* to be saved next */
-    int older;                /* as gn_state_read() has it */
-    struct gn_keeper *keeper; /* NULL: nothing is saved */
-    struct gn_watch done;
-    struct gn_timer timer;     /* of the next save */
-    bool begun;                /* the first one */
-    bool changed;              /* since the last one began, */
-    int64_t saved_ns;          /* which was then; 0: none was */
-    int64_t seen_ns, shown_ns; /* the last look; what is left of a second */
-    uint64_t frames, presses;  /* of gn_show_counts, then */
-};
-/* The first scene could not be loaded, and another is shown in its place. */
+/* The first scene: it may not be loaded, and another be shown in its place. */
 struct gn_show_first {
+    int scene;              /* in the list of next-scene, as the state has it */
     char lost[GN_SHOW_WHY]; /* why; "": it was loaded */
     const char *instead;    /* what is shown */
-    int tries;              /* of memory.good */
+    int tries;              /* of the scenes of the state */
 };
-struct gn_show_television {     /* of [schedule] off = cec */
-    struct gn_television *told; /* NULL: none */
-    char device[256];           /* of the settings that it was opened with; "": to be found */
-    struct gn_watch watch;
-    struct gn_television_state state; /* after the last attempt */
-    bool is_set, on;                  /* what it was told last */
-    char connector[64];
-};
-struct gn_show_health {       /* of the board */
-    struct gn_sensor *sensor; /* NULL: none */
-    struct gn_watch watch;
-    struct gn_health_log log;
-    char summary[160]; /* "": it has suffered from nothing so far */
-};
-struct gn_show_counts {
-    int64_t begun_ns; /* the program, about */
-    uint64_t presses; /* of buttons and keys that did something */
-    uint64_t frames, most_frames;
-    unsigned long allocations; /* in frames after the first, without work ahead */
-    uint64_t objects;          /* of GL, in those of them that show what the one before shows */
-    struct gn_frame_times times;
-};
-
 struct gn_show {
     struct gn_show_config config;
     struct gn_warnings *warnings;
@@ -225,22 +152,15 @@ struct gn_show {
     struct gn_kiosk_rules rules;
     struct gn_kiosk kiosk;
     struct gn_kiosk_view drawn; /* by the last frame */
-    int64_t shifted_minute;     /* of that frame */
     struct gn_show_text text;
+    struct gn_problems problems;
     struct gn_show_ahead ahead;
     struct gn_show_fade fade;
     const struct gn_scene *clips_of; /* whose pose was chosen last: another one's was not seen */
-    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.fade */
+    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.at.fade */
     struct gn_show_counts counts;
-    struct gn_show_stats stats;
-    struct gn_shader_files shaders;
-    struct gn_contents content;
-    struct gn_show_hours hours;
-    struct gn_show_memory memory;
+    struct gn_parts parts;
     struct gn_show_first first;
-    struct gn_show_television television;
-    struct gn_show_health health;
-    struct gn_service service;
     struct gn_show_control *control;  /* NULL: no control socket */
     struct gn_screenshot *screenshot; /* NULL without control */
     struct gn_show_viewer viewer;
@@ -261,25 +181,19 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 
 /* ---- remember.c: [kiosk] state --------------------------------------------------------------- */
 
-/* After the options are read: the mode and scene that the state has, put into them. */
-void gn_show_recall(struct gn_show *show);
 /* Whether there is another scene to load in place of the first, which could not be: the options
  * then name it. */
 bool gn_show_try_other(struct gn_show *show, struct gn_options **options,
                        const struct gn_loaded *loaded);
-/* Once the kiosk has begun it is saved; gn_show_remember() is called in each step. */
-void gn_show_open_memory(struct gn_show *show);
-void gn_show_remember(struct gn_show *show);
-void gn_show_end_memory(struct gn_show *show);   /* begins the last save; legal when not open */
-void gn_show_close_memory(struct gn_show *show); /* waits for it, but not for long */
 
 /* ---- reload.c: SIGHUP, ctl reload and ctl scene ---------------------------------------------- */
 
 /* The reload that show->wish wants: reads the options again, and begins to load their scene, or the
  * wish's file in all modes. An unfinished reload is dropped. */
 void gn_show_reload(struct gn_show *show);
-/* The same once files have changed that are watched. */
-void gn_show_renew_content(struct gn_show *show);
+/* The functions of struct gn_part_host. */
+bool gn_show_renew(struct gn_show *show, bool turned);
+void gn_show_scene_files(const struct gn_show *show, const char *out_paths[3]);
 /* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
  * be loaded a caption has the reason for a while. */
 void gn_show_load_file(struct gn_show *show, const char *path);
@@ -304,11 +218,6 @@ bool gn_show_frame(struct gn_show *show, struct gn_err *err);
 
 bool gn_show_open_display(struct gn_show *show, struct gn_err *err);
 /* False: between these settings the display has to be opened again. */
-/* Waits for changes of the shaders of the settings; called again after a reload. */
-void gn_show_open_shaders(struct gn_show *show);
-/* Makes the programs again if their files have changed. One that fails stays as it is, with a
- * warning. */
-void gn_show_renew_shaders(struct gn_show *show);
 bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b);
 /* Frame options that follow from the screen: size, rotation, encoding, MSAA. */
 void gn_show_fit_to_screen(struct gn_show *show);
@@ -338,8 +247,8 @@ void gn_show_forget_work(struct gn_show *show);
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_close_loader(struct gn_show *show);
 /* Not while the loader is busy. path NULL: the default scene. */
-bool gn_show_start_load(struct gn_show *show, int number, const char *path,
-                        const struct gn_settings *settings, struct gn_err *err);
+void gn_show_start_load(struct gn_show *show, int number, const char *path,
+                        const struct gn_settings *settings);
 /* Loads the wanted scene, and shows the wanted mode and scene once they are ready. */
 void gn_show_advance(struct gn_show *show);
 /* gn_show_advance() can show the wanted mode and scene now. */
@@ -385,11 +294,6 @@ bool gn_show_turntable_moves(const struct gn_show *show);
 int64_t gn_show_turntable_due_ns(const struct gn_show *show); /* when it goes on; INT64_MAX */
 void gn_show_step_turntable(struct gn_show *show, int64_t seen_ns, int64_t scene_ns);
 
-/* shift.c: the picture wanders against burn-in. */
-bool gn_show_shifts(const struct gn_show *show); /* it stands elsewhere than in the last frame */
-int64_t gn_show_shift_due_ns(const struct gn_show *show); /* INT64_MAX: never */
-void gn_show_shift(struct gn_show *show);                 /* for the next frame */
-
 /* ---- begin.c: from arguments to a first mode ------------------------------------------------- */
 
 /* With the settings of the first mode, or of none. */
@@ -411,35 +315,14 @@ bool gn_show_look_at_first(const struct gn_show *show, struct gn_options *option
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
-/* follow.c: the files that are watched; called again after each load, whatever became of it. */
-void gn_show_follow_content(struct gn_show *show, bool missed);
-bool gn_show_content_turned(const struct gn_show *show); /* gn_take_keep() or _back() was there */
-
-/* hours.c: the screen is off by the clock; called again after a reload. */
-void gn_show_open_hours(struct gn_show *show);
-
-/* television.c: a television that goes into standby with the screen; open is called again after a
- * reload, step in each step of the kiosk. */
-void gn_show_open_television(struct gn_show *show);
-void gn_show_step_television(struct gn_show *show);
-void gn_show_close_television(struct gn_show *show);
-
-/* health.c: what the board suffers from, read so often by a thread; root: before /sys and /proc. */
-void gn_show_open_health(struct gn_show *show, const char *root, int64_t interval_ns);
-void gn_show_close_health(struct gn_show *show);
-
 /* truth.c stands here; see truth.h. */
 
-/* ---- events.c: actions as events of the machine; problems ------------------------------------ */
+/* ---- events.c: actions as events of the machine ---------------------------------------------- */
 
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
 /* Whether there is the mode, or in the scene that is shown the clip, that it names. */
 bool gn_show_check_action(const struct gn_show *show, const struct gn_action *action,
                           struct gn_err *err);
-/* A problem that does not end the kiosk: printed once, and in the status until it is cured. */
-void gn_show_report_problem(struct gn_show *show, enum gn_problem kind, const char *text);
-void gn_show_cure_problem(struct gn_show *show, enum gn_problem kind);
-const char *gn_show_problem(const struct gn_show *show); /* the last that is not cured, or NULL */
 /* A caption of the viewer, for 2 s. */
 __attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show *show, const char *format,
                                                         ...);

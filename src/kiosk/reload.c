@@ -45,25 +45,23 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     if (!r->first) s->first.lost[0] = '\0';
     s->config.waits = false;
     s->stage.settings = options->settings;
-    s->stage.frame_opts.view.orbit = (struct gn_orbit){0};
+    s->stage.shown.opts.view.orbit = (struct gn_orbit){0};
     const struct gn_kiosk before = s->kiosk;
     const bool begun = gn_show_begin(s, err);
     s->kiosk.shown.scene = s->kiosk.wanted.scene = r->scene;
     s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
-    for (int i = GN_PROBLEM_CONFIG; i <= GN_PROBLEM_SCENE; i++) gn_show_cure_problem(s, i);
+    for (int i = GN_PROBLEM_CONFIG; i <= GN_PROBLEM_SCENE; i++) gn_problem_cure(&s->problems, i);
     if (!begun || (!keeps_display && !gn_show_open_display(s, err))) return false;
     gn_show_open_captions(s);
-    gn_show_open_shaders(s);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
-        gn_show_report_problem(s, GN_PROBLEM_CONFIG,
-                               why.text); /* not fatal: the kiosk runs without buttons */
+        gn_problem_report(&s->problems, GN_PROBLEM_CONFIG,
+                          why.text); /* not fatal: the kiosk runs without buttons */
     s->kiosk.blanked = before.blanked;
     s->kiosk.asleep = before.asleep;
     s->kiosk.woken = before.woken;
     s->kiosk.used_ns = before.used_ns;
-    gn_show_open_hours(s);
-    gn_show_open_television(s);
+    gn_parts_reopen(&s->parts);
     if (!s->stage.settings->run.verbose) return true;
     printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
     fflush(stdout);
@@ -91,12 +89,12 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     gn_show_drop_reload(s);
     gn_show_answer_reload(s, why);
     if (cause == GN_RELOAD_FILE) return;
-    gn_show_follow_content(s, true);
+    gn_parts_loaded(&s->parts, GN_PART_LOAD_FAILED);
     if (cause != GN_RELOAD_ASKED) {
         const struct gn_kiosk_event failed = {.kind = GN_KIOSK_NOTE,
                                               .time_ns = gn_loop_now_ns(s->loop),
                                               .caption = GN_KIOSK_CAPTION_PROBLEM};
-        gn_show_report_problem(s, GN_PROBLEM_CONFIG, why->text);
+        gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why->text);
         s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
         s->changed = true;
         return;
@@ -106,7 +104,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     s->changed = true;
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
-    gn_show_report_problem(s, GN_PROBLEM_CONFIG, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, text);
 }
 
 /* ---- the steps ------------------------------------------------------------------------------ */
@@ -170,16 +168,19 @@ void gn_show_reload(struct gn_show *s) {
     wish->cause = GN_RELOAD_ASKED;
 }
 
-void gn_show_renew_content(struct gn_show *s) {
-    if (!s->content.changed || s->reload.first) return;
-    s->content.changed = false;
-    /* new content also replaces the scene of ctl scene */
-    begin_reload(s, GN_RELOAD_SEEN, gn_show_content_turned(s) ? NULL : s->config.file);
+/* New content also replaces the scene of ctl scene. A reload that was asked for comes first. */
+bool gn_show_renew(struct gn_show *s, bool turned) {
+    if (s->reload.first || s->reloads) return false;
+    begin_reload(s, GN_RELOAD_SEEN, turned ? NULL : s->config.file);
+    return true;
 }
 
-/* Content may have been turned while the options were read. */
-static void look_for_turn(struct gn_show *s) {
-    s->content.changed |= s->content.watch.fd >= 0 && gn_show_content_turned(s);
+void gn_show_scene_files(const struct gn_show *s, const char *out_paths[3]) {
+    const struct gn_show_scenes *scenes = &s->scenes;
+    const int failed = s->problems.of[GN_PROBLEM_SCENE][0] ? s->problems.scene : INT_MAX;
+    out_paths[0] = scenes->count > 0 ? scenes->paths[scenes->shown] : NULL;
+    out_paths[1] = s->config.asked;
+    out_paths[2] = failed < scenes->count ? scenes->paths[failed] : NULL;
 }
 
 void gn_show_load_file(struct gn_show *s, const char *path) {
@@ -237,8 +238,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     if (ok && taken.first) s->counts.frames = 0;
     if (ok && taken.why[0]) report_missing(s, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);
-    gn_show_follow_content(s, false);
-    look_for_turn(s);
+    gn_parts_loaded(&s->parts, GN_PART_LOAD_OPTIONS);
     return ok;
 }
 
@@ -251,7 +251,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
         gn_loaded_drop(r->loaded);
         r->loaded = NULL;
         r->file = s->config.file;
-        r->scene = s->memory.scene;
+        r->scene = s->first.scene;
     }
     if (r->loaded) {
         if (look_at_loaded(s, &look, &why)) {
@@ -268,8 +268,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     const char *path = scene_path(r->options->settings, r->scene);
     if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP && !(r->first && s->first.lost[0]))
         snprintf(s->config.asked, sizeof s->config.asked, "%s", path ? path : "");
-    if (!gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings, &why))
-        keep_old(s, r->cause, &why);
+    gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings);
     return true;
 }
 
@@ -282,14 +281,12 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     const int64_t until_ns =
         gn_loop_now_ns(s->loop) + (strcmp(backend, "window") == 0 ? WINDOW_NS : GN_NS_PER_S);
     snprintf(s->config.asked, sizeof s->config.asked, "%s", o->scene.path ? o->scene.path : "");
-    gn_show_follow_content(s, false);
-    look_for_turn(s);
+    gn_parts_loaded(&s->parts, GN_PART_LOAD_OPTIONS);
     do {
         gn_loaded_drop(s->reload.loaded);
         s->reload.loaded = NULL;
         o = s->config.options->settings;
-        if (!gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->memory.scene), o, err))
-            return false;
+        gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->first.scene), o);
         while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
             gn_loop_step(s->loop, until_ns);
         if (s->ends) return false;
@@ -299,8 +296,10 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     struct gn_stage_look look;
     char missing[GN_SHOW_WHY];
     const bool ok = gn_show_look_at_first(s, s->config.options, loaded, &look, missing, err);
-    s->stage = (struct gn_stage){
-        .settings = s->config.options->settings, .scene = loaded->scene, .pose = loaded->pose};
+    s->stage = (struct gn_stage){.settings = s->config.options->settings,
+                                 .scene = loaded->scene,
+                                 .pose = loaded->pose,
+                                 .shown.pose = &s->stage.pose};
     loaded->scene = NULL;
     loaded->pose = (struct gn_pose){0};
     gn_show_drop_reload(s);

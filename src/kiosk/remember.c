@@ -10,11 +10,29 @@
 #include "core/clock.h"
 #include "kiosk/keeper.h"
 #include "kiosk/private.h"
+#include "kiosk/state.h"
 #include "shadow/technique.h"
 
 static const int64_t SETTLE_NS = 5 * GN_NS_PER_S, REST_NS = 60 * GN_NS_PER_S,
                      COUNTS_NS = 600 * GN_NS_PER_S,
                      END_NS = GN_NS_PER_S / 2; /* for what the end still has to save */
+
+struct memory {
+    const struct gn_part_host *host;
+    char path[PATH_MAX];      /* "": none */
+    char good[2][PATH_MAX];   /* the scenes shown last before the start; "" */
+    struct gn_state state;    /* to be saved next */
+    int older;                /* as gn_state_read() has it */
+    struct gn_keeper *keeper; /* NULL: nothing is saved */
+    struct gn_watch done;
+    struct gn_timer timer;     /* of the next save */
+    bool begun;                /* the first one */
+    bool changed;              /* since the last one began, */
+    int64_t saved_ns;          /* which was then; 0: none was */
+    int64_t seen_ns, shown_ns; /* the last look; what is left of a second */
+    uint64_t frames, presses;  /* of gn_show_counts, then */
+};
+static struct memory *memory_of(const struct gn_show *s) { return s->parts.of[GN_PART_state]; }
 
 /* ---- the start ------------------------------------------------------------------------------- */
 
@@ -36,9 +54,9 @@ static void begin_counts(struct gn_state *s) {
     memcpy(s->boot, boot, sizeof boot);
 }
 
-/* The mode of that name, but where the command line says which. */
+/* The mode of that name, unless the command line names one. */
 static void recall_mode(const struct gn_show *s, struct gn_options *o) {
-    const char *mode = s->memory.state.mode;
+    const char *mode = memory_of(s)->state.mode;
     const struct gn_settings *base = &o->all[0];
     const int found = gn_options_find_mode(o, mode);
     if (!mode[0] || o->settings->run.mode || o->is_lesson) return;
@@ -62,12 +80,12 @@ static int list_place(const struct gn_options *o, const char *path) {
 }
 
 static void recall_scene(struct gn_show *s, struct gn_options *o) {
-    const struct gn_state *found = &s->memory.state;
+    const struct gn_state *found = &memory_of(s)->state;
     const enum gn_source source =
         gn_settings_source(&o->all[0], offsetof(struct gn_settings, scene.path));
     if (!found->scene[0] || source == GN_SOURCE_FLAG || o->is_lesson) return;
     if (!found->given) {
-        s->memory.scene = list_place(o, found->listed[0] ? found->listed : found->scene);
+        s->first.scene = list_place(o, found->listed[0] ? found->listed : found->scene);
     } else if (access(found->scene, R_OK) == 0) {
         s->config.file = gn_show_put_file(o, found->scene);
         s->config.has_past = true; /* rollback: the configuration's */
@@ -78,14 +96,14 @@ static void recall_scene(struct gn_show *s, struct gn_options *o) {
     }
 }
 
-void gn_show_recall(struct gn_show *s) {
-    struct gn_show_memory *m = &s->memory;
+static void recall(struct gn_show *s) {
+    struct memory *m = memory_of(s);
     struct gn_options *o = s->config.options;
     const char *path = o->settings->kiosk.state;
     struct gn_err err = {0};
     if (strcmp(path, "no") == 0) return;
     snprintf(m->path, sizeof m->path, "%s", path);
-    if (gn_state_read(&gn_state_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
+    if (gn_state_read(&gn_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
         gn_warn(s->warnings, "state: %s; starting as configured", err.text);
     memcpy(m->good[0], m->state.scene, PATH_MAX);
     memcpy(m->good[1], m->state.past, PATH_MAX);
@@ -99,14 +117,14 @@ void gn_show_recall(struct gn_show *s) {
 /* What the state asked for is lost: the options as they are configured. */
 static bool try_configured(struct gn_show *s, struct gn_options **options) {
     struct gn_err unused = {0};
-    if (!s->config.file && s->memory.scene == 0) return false;
+    if (!s->config.file && s->first.scene == 0) return false;
     struct gn_options *fresh = gn_show_read_options(*options, NULL, &unused);
     if (!fresh) return false;
     gn_show_drop_options(*options);
     *options = fresh;
     s->config.file = NULL;
     s->config.has_past = false;
-    s->memory.scene = 0;
+    s->first.scene = 0;
     recall_mode(s, fresh);
     s->first.instead = "configured scene";
     return true;
@@ -115,7 +133,7 @@ static bool try_configured(struct gn_show *s, struct gn_options **options) {
 static bool try_good(struct gn_show *s, struct gn_options *o) {
     const char *path = o->settings->scene.path;
     while (s->first.tries < 2) {
-        const char *good = s->memory.good[s->first.tries++];
+        const char *good = memory_of(s)->good[s->first.tries++];
         if (!good[0] || !path || strcmp(good, path) == 0 || access(good, R_OK) != 0) continue;
         gn_show_replace_scene(o, path, good);
         s->first.instead = "last good scene";
@@ -127,7 +145,8 @@ static bool try_good(struct gn_show *s, struct gn_options *o) {
 bool gn_show_try_other(struct gn_show *s, struct gn_options **options,
                        const struct gn_loaded *loaded) {
     struct gn_err err = loaded->err;
-    if (loaded->scene || s->config.place || !s->memory.path[0] || !(*options)->settings->scene.path)
+    if (loaded->scene || s->config.place || !memory_of(s)->path[0] ||
+        !(*options)->settings->scene.path)
         return false;
     gn_stage_name_source((*options)->settings, &err);
     if (!s->first.lost[0]) snprintf(s->first.lost, sizeof s->first.lost, "%.480s", err.text);
@@ -136,7 +155,7 @@ bool gn_show_try_other(struct gn_show *s, struct gn_options **options,
 
 /* ---- saving ---------------------------------------------------------------------------------- */
 
-static void set_due(struct gn_show_memory *m, int64_t now_ns) {
+static void set_due(struct memory *m, int64_t now_ns) {
     const int64_t settled_ns = now_ns + SETTLE_NS, rested_ns = m->saved_ns + REST_NS;
     if (!m->changed)
         m->timer.due_ns = now_ns + COUNTS_NS;
@@ -147,13 +166,13 @@ static void set_due(struct gn_show_memory *m, int64_t now_ns) {
 static void report_failure(struct gn_show *s, const struct gn_err *err) {
     char text[sizeof err->text + 64];
     snprintf(text, sizeof text, "state: %s (it will not outlast a restart)", err->text);
-    gn_show_report_problem(s, GN_PROBLEM_STATE, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_STATE, text);
 }
 
 static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64_t now_ns) {
-    struct gn_show_memory *m = &s->memory;
+    struct memory *m = memory_of(s);
     if (ok)
-        gn_show_cure_problem(s, GN_PROBLEM_STATE);
+        gn_problem_cure(&s->problems, GN_PROBLEM_STATE);
     else
         report_failure(s, err);
     m->changed |= !ok;
@@ -162,13 +181,12 @@ static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64
 
 static void begin_save(void *user, int64_t now_ns) {
     struct gn_show *s = user;
-    struct gn_show_memory *m = &s->memory;
-    struct gn_err err = {0};
+    struct memory *m = memory_of(s);
     m->saved_ns = m->begun ? now_ns : 0; /* after the first there is no rest */
     m->begun = true;
     m->changed = false;
     m->state.sequence++;
-    if (!gn_keeper_start(m->keeper, &m->state, &err)) end_save(s, false, &err, now_ns);
+    gn_keeper_save(m->keeper, &m->state);
 }
 
 static void take_save(void *user, uint32_t events, int64_t now_ns) {
@@ -176,14 +194,14 @@ static void take_save(void *user, uint32_t events, int64_t now_ns) {
     struct gn_err err = {0};
     bool ok;
     (void)events;
-    if (gn_keeper_take(s->memory.keeper, &ok, &err)) end_save(s, ok, &err, now_ns);
+    if (gn_keeper_take(memory_of(s)->keeper, &ok, &err)) end_save(s, ok, &err, now_ns);
 }
 
-void gn_show_open_memory(struct gn_show *s) {
-    struct gn_show_memory *m = &s->memory;
+static void open_memory(struct gn_show *s) {
+    struct memory *m = memory_of(s);
     struct gn_err err = {0};
     if (!m->path[0]) return;
-    m->keeper = gn_keeper_create(&gn_state_disk, m->path, m->older, &err);
+    m->keeper = gn_keeper_open(&gn_disk, m->path, m->older, &err);
     m->done = (struct gn_watch){.fd = m->keeper ? gn_keeper_fd(m->keeper) : -1,
                                 .events = EPOLLIN,
                                 .call = take_save,
@@ -205,7 +223,7 @@ void gn_show_open_memory(struct gn_show *s) {
 /* ---- what is remembered ---------------------------------------------------------------------- */
 
 static void count(struct gn_show *s, int64_t now_ns) {
-    struct gn_show_memory *m = &s->memory;
+    struct memory *m = memory_of(s);
     struct gn_state_counts *c = &m->state.counts;
     const uint64_t frames = s->counts.frames;
     if (s->stage.display.screen.lit && !gn_kiosk_is_dark(&s->kiosk))
@@ -227,7 +245,7 @@ static bool take_text(const char *text, char *out, size_t size) {
 
 /* The scene of the configuration stays where another one is shown in its place. */
 static bool take_scene(struct gn_show *s) {
-    struct gn_state *state = &s->memory.state;
+    struct gn_state *state = &memory_of(s)->state;
     const char *path = s->scenes.paths[s->scenes.shown];
     const bool given = s->config.file;
     char before[PATH_MAX];
@@ -242,8 +260,8 @@ static bool take_scene(struct gn_show *s) {
     return true;
 }
 
-void gn_show_remember(struct gn_show *s) {
-    struct gn_show_memory *m = &s->memory;
+static void remember(struct gn_show *s) {
+    struct memory *m = memory_of(s);
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     if (!m->keeper) return;
     count(s, now_ns);
@@ -256,20 +274,54 @@ void gn_show_remember(struct gn_show *s) {
     if (!waits && !gn_keeper_is_busy(m->keeper)) set_due(m, now_ns);
 }
 
-void gn_show_end_memory(struct gn_show *s) {
-    struct gn_show_memory *m = &s->memory;
-    struct gn_err err = {0};
+static void end_memory(struct gn_show *s) {
+    struct memory *m = memory_of(s);
     if (!m->keeper) return;
-    gn_show_remember(s);
+    remember(s);
     m->state.runs = s->failed;
     m->state.sequence++;
-    if (!gn_keeper_start_last(m->keeper, &m->state, &err)) report_failure(s, &err);
+    gn_keeper_save(m->keeper, &m->state);
     gn_loop_remove(&m->done);
     gn_loop_remove_timer(&m->timer);
 }
 
-void gn_show_close_memory(struct gn_show *s) {
+static void close_memory(struct gn_show *s) {
     struct gn_err err = {0};
-    if (!gn_keeper_close(s->memory.keeper, END_NS, &err)) report_failure(s, &err);
-    s->memory.keeper = NULL;
+    if (!gn_keeper_close(memory_of(s)->keeper, END_NS, &err)) report_failure(s, &err);
+    memory_of(s)->keeper = NULL;
 }
+
+/* ---- the part -------------------------------------------------------------------------------- */
+
+static struct gn_show *show_of(const void *part) {
+    return ((const struct memory *)part)->host->show;
+}
+
+static void begin_state(void *part) { recall(show_of(part)); }
+static void open_state(void *part) { open_memory(show_of(part)); }
+static void look_at_state(void *part) { remember(show_of(part)); }
+static void end_state(void *part) { end_memory(show_of(part)); }
+static void close_state(void *part) { close_memory(show_of(part)); }
+
+static const void *state_status(void *part) {
+    return ((const struct memory *)part)->path[0] ? part : NULL;
+}
+
+static const struct gn_metric metrics[] = {
+    GN_METRIC(struct memory, path, "state.file", "", "what outlasts a restart"),
+#define X(id) GN_METRIC(struct memory, state.counts.id, "state." #id, "", "over all starts"),
+    GN_STATE_COUNTS(X)
+#undef X
+};
+
+const struct gn_part gn_part_state = {
+    .name = "state",
+    .size = sizeof(struct memory),
+    .begin = begin_state,
+    .open = open_state,
+    .look = look_at_state,
+    .status = state_status,
+    GN_PART_METRICS(metrics),
+    .end = end_state,
+    .close = close_state,
+};

@@ -14,8 +14,6 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
     uint32_t without = 0;
     const bool srgb =
         !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
-    /* a still picture must be flipped within a quarter of the watchdog's timeout */
-    const int64_t again_ns = s->service.every_ns * 3 / 4;
     s->context.screen_opts = (struct gn_screen_opts){
         .loop = s->loop,
         .width_px = (uint32_t)o->render.size.width_px,
@@ -35,8 +33,8 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
         .unencoded = !srgb,
         .legacy = o->display.legacy,
         .range = (enum gn_screen_range)o->display.range,
-        .again_ns = again_ns < 10 * GN_NS_PER_S ? again_ns : 0,
     };
+    gn_parts_add_screen(&s->parts, &s->context.screen_opts);
     gn_wake_begin(&wake, o);
     const bool ok = gn_display_open_screen(
         &s->stage.display, s->config.place ? s->config.place->backend : o->display.backend,
@@ -50,38 +48,19 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
 void gn_show_fit_to_screen(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool direct = s->stage.display.ops->screen && !screen->copy_to;
-    struct gn_frame_opts *f = &s->stage.frame_opts;
     const struct gn_gl_window window = {screen->width_px, screen->height_px, screen->srgb};
-    f->width_px = screen->width_px;
-    f->height_px = screen->height_px;
-    f->turn_deg = screen->rotate_deg;
-    const bool unencoded = direct && !screen->srgb;
-    const uint32_t msaa = gn_stage_msaa(&s->stage, f->width_px, f->height_px, false);
-    if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* other programs */
-        gn_show_unready(s);
-    }
-    f->unencoded = s->context.unencoded = unencoded;
-    f->msaa = s->context.msaa = msaa;
+    struct gn_frame_output_opts *output = &s->stage.shown.opts.output;
+    const struct gn_frame_output_opts before = *output;
+    *output = (struct gn_frame_output_opts){
+        .width_px = screen->width_px,
+        .height_px = screen->height_px,
+        .turn_deg = screen->rotate_deg,
+        .msaa = gn_stage_msaa(&s->stage, screen->width_px, screen->height_px, false),
+        .unencoded = direct && !screen->srgb,
+    };
+    if (output->unencoded != before.unencoded || output->msaa != before.msaa)
+        gn_show_unready(s); /* other programs */
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
-}
-
-void gn_show_open_shaders(struct gn_show *s) {
-    struct gn_err why = {0};
-    gn_shader_files_close(&s->shaders);
-    if (!gn_shader_files_open(&s->shaders, s->stage.settings->render.shaders, s->loop, &why))
-        gn_show_report_problem(s, GN_PROBLEM_CONFIG, why.text); /* until a reload */
-}
-
-void gn_show_renew_shaders(struct gn_show *s) {
-    struct gn_err why = {0};
-    if (!s->shaders.changed || !s->stage.gl) return;
-    s->shaders.changed = false;
-    s->changed = true;
-    if (gn_gl_renew_programs(s->stage.gl, &why)) {
-        gn_show_cure_problem(s, GN_PROBLEM_SHADERS); /* the same problem again is news */
-        return;
-    }
-    gn_show_report_problem(s, GN_PROBLEM_SHADERS, why.text);
 }
 
 void gn_show_stop_gl(struct gn_show *s) {
@@ -113,14 +92,14 @@ static void tell_range(struct gn_show *s) {
     if (s->context.lacks_range == lacks) return;
     s->context.lacks_range = lacks;
     if (!lacks) {
-        gn_show_cure_problem(s, GN_PROBLEM_RANGE);
+        gn_problem_cure(&s->problems, GN_PROBLEM_RANGE);
         return;
     }
     snprintf(text, sizeof text,
              "[display] range: %.*s has no property \"Broadcast RGB\", its levels stay as the "
              "driver has them; set them in the monitor's menu",
              (int)strcspn(screen->what, " "), screen->what);
-    gn_show_report_problem(s, GN_PROBLEM_RANGE, text);
+    gn_problem_report(&s->problems, GN_PROBLEM_RANGE, text);
 }
 
 bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
@@ -147,11 +126,12 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     if (screen->may_draw) return true;
 
     /* without a monitor the programs are made by drawing a small frame */
-    s->stage.frame_opts.width_px = 64;
-    s->stage.frame_opts.height_px = 36;
-    s->stage.frame_opts.captions = NULL; /* those are laid out for another size */
+    s->stage.shown.opts.output.width_px = 64;
+    s->stage.shown.opts.output.height_px = 36;
+    s->stage.shown.opts.cover.captions = NULL; /* those are laid out for another size */
     gn_gl_set_window(s->stage.gl, NULL);
-    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
+    if (!gn_view_draw(&s->stage.shown, &s->stage, s->stage.settings->scene.time_ns, s->warnings,
+                      err))
         return show_failure(s, err);
     gn_gl_finish_frame(s->stage.gl); /* many drivers compile at the first draw */
     return true;

@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/clock.h"
+#include "kiosk/part.h"
 #include "options/value.h"
 
 /* Best effort: a lost datagram is not an error. */
@@ -117,3 +119,41 @@ void gn_service_close(struct gn_service *s) {
     gn_loop_remove_timer(&s->timer);
     s->socket = -1;
 }
+
+/* ---- the part -------------------------------------------------------------------------------- */
+
+struct service {
+    const struct gn_part_host *host;
+    struct gn_service of;
+};
+
+/* A failure is no reason to show no picture. */
+static void begin_service(void *part) {
+    struct service *s = part;
+    struct gn_err err = {0};
+    if (!gn_service_open(&s->of, s->host->loop, gn_loop_now_ns(s->host->loop), &err))
+        gn_problem_report(s->host->problems, GN_PROBLEM_START, err.text);
+}
+
+/* A still picture is to be flipped within a quarter of the watchdog's timeout. */
+static void flip_in_time(const void *part, struct gn_screen_opts *opts) {
+    const int64_t again_ns = ((const struct service *)part)->of.every_ns * 3 / 4;
+    opts->again_ns = again_ns < 10 * GN_NS_PER_S ? again_ns : 0;
+}
+
+static void step_service(void *part) {
+    struct service *s = part;
+    const struct gn_part_host *h = s->host;
+    *h->changed |= gn_service_step(&s->of, &h->display->screen, gn_loop_now_ns(h->loop));
+}
+
+static void close_service(void *part) { gn_service_close(&((struct service *)part)->of); }
+
+const struct gn_part gn_part_service = {
+    .name = "service",
+    .size = sizeof(struct service),
+    .begin = begin_service,
+    .add_screen = flip_in_time,
+    .step = step_service,
+    .close = close_service,
+};

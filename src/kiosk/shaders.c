@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include "core/clock.h"
+#include "gl/gl.h"
+#include "kiosk/part.h"
 
 static const int64_t MOMENT_NS = GN_NS_PER_S / 10;
 
@@ -66,3 +68,49 @@ void gn_shader_files_close(struct gn_shader_files *files) {
     if (files->watch.fd >= 0) close(files->watch.fd);
     *files = (struct gn_shader_files){.watch.fd = -1};
 }
+
+/* ---- the part -------------------------------------------------------------------------------- */
+
+struct shaders {
+    const struct gn_part_host *host;
+    struct gn_shader_files files;
+};
+
+static void open_shaders(void *part) {
+    struct shaders *s = part;
+    const struct gn_part_host *h = s->host;
+    struct gn_err err = {0};
+    gn_problem_cure(h->problems, GN_PROBLEM_SHADERS);
+    if (!gn_shader_files_open(&s->files, (*h->settings)->render.shaders, h->loop, &err))
+        gn_problem_report(h->problems, GN_PROBLEM_SHADERS, err.text);
+}
+
+static void close_shaders(void *part) { gn_shader_files_close(&((struct shaders *)part)->files); }
+
+static void reopen_shaders(void *part) {
+    close_shaders(part);
+    open_shaders(part);
+}
+
+/* Makes the programs again. One that fails stays as it is. */
+static void renew_shaders(void *part) {
+    struct shaders *s = part;
+    const struct gn_part_host *h = s->host;
+    struct gn_err err = {0};
+    if (!s->files.changed || !*h->gl) return;
+    s->files.changed = false;
+    *h->changed = true;
+    if (gn_gl_renew_programs(*h->gl, &err))
+        gn_problem_cure(h->problems, GN_PROBLEM_SHADERS); /* the same problem again is news */
+    else
+        gn_problem_report(h->problems, GN_PROBLEM_SHADERS, err.text);
+}
+
+const struct gn_part gn_part_shaders = {
+    .name = "shaders",
+    .size = sizeof(struct shaders),
+    .open = open_shaders,
+    .reopen = reopen_shaders,
+    .step = renew_shaders,
+    .close = close_shaders,
+};

@@ -35,8 +35,8 @@ static int64_t due_ns(const struct gn_show *s) {
     if (truth_ns < at_ns) at_ns = truth_ns;
     const int64_t turntable_ns = gn_show_turntable_due_ns(s);
     if (turntable_ns < at_ns) at_ns = turntable_ns;
-    const int64_t shift_ns = gn_show_shift_due_ns(s);
-    if (shift_ns < at_ns) at_ns = shift_ns;
+    const int64_t parts_ns = gn_parts_due_ns(&s->parts);
+    if (parts_ns < at_ns) at_ns = parts_ns;
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
     return at_ns;
@@ -45,13 +45,11 @@ static int64_t due_ns(const struct gn_show *s) {
 bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     struct gn_screen *screen = &s->stage.display.screen;
     gn_loop_step(s->loop, due_ns(s));
-    gn_show_remember(s);
 
     /* input: requests, a reload, events of the display, buttons and keys */
-    gn_show_answer_requests(s);
+    gn_parts_look(&s->parts);
     if (s->ends) return true;
     if (s->reloads) gn_show_reload(s);
-    gn_show_renew_content(s);
     if (!gn_show_step_reload(s, err)) return false;
     if (!gn_display_dispatch(&s->stage.display, gn_loop_now_ns(s->loop), err)) return false;
     struct gn_pointer pointer = screen->pointer;
@@ -76,10 +74,8 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_show_suppress_taps(s);
     const bool off = s->kiosk.blanked || (gn_kiosk_is_dark(&s->kiosk) && !s->rules.sleeps_black);
     if (off != screen->blank) gn_display_blank(&s->stage.display, off, tick.time_ns);
-    gn_show_step_television(s);
-    s->changed |= gn_service_step(&s->service, screen, gn_loop_now_ns(s->loop));
     if (!gn_show_keep_context(s, err)) return false;
-    gn_show_renew_shaders(s);
+    gn_parts_step(&s->parts);
     gn_show_advance(s);
     gn_show_enter_set(s);
     gn_truth_step(s);
@@ -121,9 +117,8 @@ static bool run(struct gn_show *s, struct gn_err *err) {
 }
 
 void gn_show_close(struct gn_show *s) {
-    gn_show_end_memory(s); /* its last save goes on meanwhile */
+    gn_parts_end(&s->parts);
     gn_viewer_close(s);
-    gn_show_close_control(s);
     gn_input_close(s->buttons.input);
     gn_captions_destroy(s->text.captions);
     if (s->scenes.loader) gn_show_drop_reload(s);
@@ -131,18 +126,11 @@ void gn_show_close(struct gn_show *s) {
     gn_show_drop_staged(s);
     gn_split_end(s);
     gn_stage_close(&s->stage);
-    gn_show_stats_close(&s->stats);
-    gn_shader_files_close(&s->shaders);
-    gn_content_close(&s->content);
-    gn_service_close(&s->service);
-    gn_loop_remove_timer(&s->hours.timer);
-    gn_show_close_television(s);
-    gn_show_close_health(s);
+    gn_parts_destroy(&s->parts);
     gn_loop_remove_signals(&s->signals);
     gn_loop_close(s->loop);
     gn_changes_destroy(s->config.changes);
     gn_show_drop_options(s->config.options);
-    gn_show_close_memory(s);
     free(s);
 }
 
@@ -159,19 +147,15 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     if (!gn_loop_add_signals(s->loop, &s->signals, &set))
         return gn_fail(err, "show: cannot wait for signals: %s", strerror(errno));
     if (!gn_show_open_loader(s, err)) return false;
-    if (!gn_service_open(&s->service, s->loop, gn_loop_now_ns(s->loop), err)) {
-        gn_show_report_problem(s, GN_PROBLEM_START, err->text); /* the picture is more important */
-        *err = (struct gn_err){0};
-    }
     s->config.options = gn_show_read_options(options, NULL, err);
     if (!s->config.options) return false;
-    gn_show_recall(s);
+    s->parts.host.loop = s->loop;
+    gn_parts_begin(&s->parts);
     if (!gn_show_load_first(s, err)) return false;
     gn_show_open_captions(s);
-    gn_show_open_shaders(s);
     if (!gn_show_begin(s, err)) return false;
     if (!s->reload.first) { /* where the list of next-scene was */
-        s->kiosk.shown.scene = s->kiosk.wanted.scene = s->memory.scene;
+        s->kiosk.shown.scene = s->kiosk.wanted.scene = s->first.scene;
         s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
     }
     if (!gn_show_open_display(s, err)) return false;
@@ -180,24 +164,35 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
         gn_show_report_error(s, GN_PROBLEM_CONFIG, err->text);
         *err = (struct gn_err){0};
     }
-    gn_show_open_hours(s);
-    gn_show_open_memory(s);
-    gn_show_open_television(s);
-    gn_show_open_health(s, "", 10 * GN_NS_PER_S);
-    gn_show_stats_open(&s->stats, s->stage.settings, &s->stage.display, s->loop);
-    gn_show_open_control(s);
+    gn_parts_open(&s->parts);
     return true;
 }
 
+static const struct gn_part *const rows[] = {
+#define X(name) &gn_part_##name,
+    GN_PART_TABLE(X)
+#undef X
+};
+
 static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *warnings) {
     struct gn_show *s = gn_xalloc(1, sizeof *s);
-    *s = (struct gn_show){.config.place = place,
-                          .service.socket = -1,
-                          .shaders.watch.fd = -1,
-                          .television.watch.fd = -1,
-                          .health.watch.fd = -1,
-                          .content.watch.fd = -1,
-                          .warnings = warnings};
+    *s = (struct gn_show){.config.place = place, .warnings = warnings, .parts.rows = rows};
+    s->parts.host = (struct gn_part_host){
+        .display = &s->stage.display,
+        .gl = &s->stage.gl,
+        .options = &s->config.options,
+        .settings = &s->stage.settings,
+        .rules = &s->rules,
+        .kiosk = &s->kiosk,
+        .counts = &s->counts,
+        .problems = &s->problems,
+        .still = &s->truth.on,
+        .changed = &s->changed,
+        .show = s,
+        .renew = gn_show_renew,
+        .scene_files = gn_show_scene_files,
+    };
+    gn_parts_create(&s->parts);
     return s;
 }
 

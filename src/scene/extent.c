@@ -190,8 +190,8 @@ static void add_items(struct measure *m, const struct gn_pose *pose, bool moving
 /* ---- times --------------------------------------------------------------------------------- */
 
 static bool plays_clip(const struct gn_pose *pose, uint32_t clip) {
-    return pose->clips == GN_POSE_DEFAULT ? pose->scene->animation.clips[clip].on_by_default
-                                          : pose->clips == (int)clip;
+    return pose->at.clips == GN_POSE_DEFAULT ? pose->scene->animation.clips[clip].on_by_default
+                                             : pose->at.clips == (int)clip;
 }
 
 /* Nodes, items and channels that a step of the pose goes through. */

@@ -8,9 +8,34 @@
 #define UV_MOST 1e6f /* of offset, scale and rotation of a texture that clips move */
 
 static const struct gn_property properties[] = {
-#define GN_X(THING, path, record, field, components, moves, least, most)                           \
-    {GN_THING_##THING, path, FLOATS(record, field), components, moves, least, most},
+#define GN_X(THING, path, record, field, components, least, most)                                  \
+    {GN_THING_##THING, path, FLOATS(record, field), components, 0, 0, least, most},
     GN_PROPERTIES(GN_X)
+#undef GN_X
+};
+
+const struct gn_property gn_material_properties[GN_MATERIAL_PROPERTY_COUNT] = {
+#define GN_X(path, field, components, MOVES, fallback, least, most)                                \
+    {GN_THING_MATERIAL,                                                                            \
+     path,                                                                                         \
+     FLOATS(material, field),                                                                      \
+     components,                                                                                   \
+     GN_MOVES_##MOVES,                                                                             \
+     fallback,                                                                                     \
+     least,                                                                                        \
+     most},
+    GN_MATERIAL_PROPERTIES(GN_X)
+#undef GN_X
+#define GN_X(LAYER, NAME, first, components, path, fallback, least, most)                          \
+    {GN_THING_MATERIAL,                                                                            \
+     path,                                                                                         \
+     FLOATS(material, factors[GN_FACTOR_##NAME]),                                                  \
+     components,                                                                                   \
+     GN_MOVES_##LAYER,                                                                             \
+     fallback,                                                                                     \
+     least,                                                                                        \
+     most},
+        GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
 #undef GN_X
 };
 
@@ -21,8 +46,7 @@ static float clamp(float x, float least, float most) { return fminf(fmaxf(x, lea
 /* The rest of the pointer behind a path, whose dots are slashes; NULL: it has another one, or there
  * is none. */
 static const char *behind(const char *pointer, const char *path) {
-    if (!pointer || *path == '\0') return pointer;
-    if (*pointer++ != '/') return NULL;
+    if (!pointer || *pointer++ != '/') return NULL;
     for (; *path; path++, pointer++)
         if (*pointer != (*path == '.' ? '/' : *path)) return NULL;
     return pointer;
@@ -36,8 +60,7 @@ static bool find_transform(const char *pointer, struct gn_property *out) {
     };
     for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-        const char *rest = behind(pointer, row->parent);
-        rest = behind(behind(rest, row->key), "extensions.KHR_texture_transform");
+        const char *rest = behind(behind(pointer, row->path), "extensions.KHR_texture_transform");
         for (size_t i = 0; rest && i < sizeof parts / sizeof *parts; i++) {
             const char *end = behind(rest, parts[i].path);
             if (!end || *end) continue;
@@ -55,13 +78,16 @@ static bool find_transform(const char *pointer, struct gn_property *out) {
 }
 
 bool gn_property_find(enum gn_thing thing, const char *pointer, struct gn_property *out) {
-    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
-        const char *end = properties[i].thing == thing ? behind(pointer, properties[i].path) : NULL;
+    const bool material = thing == GN_THING_MATERIAL;
+    const struct gn_property *rows = material ? gn_material_properties : properties;
+    const size_t count = material ? GN_MATERIAL_PROPERTY_COUNT : sizeof properties / sizeof *rows;
+    for (size_t i = 0; i < count; i++) {
+        const char *end = rows[i].thing == thing ? behind(pointer, rows[i].path) : NULL;
         if (!end || *end) continue;
-        *out = properties[i];
+        *out = rows[i];
         return true;
     }
-    return thing == GN_THING_MATERIAL && find_transform(pointer, out);
+    return material && find_transform(pointer, out);
 }
 
 uint32_t gn_record_size(enum gn_thing thing) {
@@ -98,19 +124,12 @@ void gn_camera_make(const struct gn_camera_record *r, struct gn_camera *camera) 
     }
 }
 
-float gn_f0_of_ior(float ior) {
-    const float r = (ior - 1) / (ior + 1);
-    return fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
-}
-
-void gn_f0_make(float f0, float share, const float color[3], vec3 out) {
-    for (int k = 0; k < 3; k++)
-        out[k] = clamp(f0 * clamp(color[k], 0, 1e4f), 0, 1) * clamp(share, 0, 1);
-}
-
-void gn_emissive_make(const float factor[3], float strength, vec3 out) {
-    for (int k = 0; k < 3; k++)
-        out[k] = clamp(clamp(factor[k], 0, 1e9f) * clamp(strength, 0, 1e9f), 0, 1e9f);
+void gn_material_record_init(struct gn_material_record *record) {
+    *record = (struct gn_material_record){.tint = {1, 1, 1}};
+    for (size_t i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++)
+        for (uint32_t k = 0; k < gn_material_properties[i].components; k++)
+            ((float *)record)[gn_material_properties[i].first + k] =
+                gn_material_properties[i].fallback;
 }
 
 /* An affine map; the rotation is clockwise, since v points down. */
@@ -133,29 +152,41 @@ static void make_moved_uv(const struct gn_uv_record *r, float uv_from_uv[6]) {
     gn_uv_make(&within, uv_from_uv);
 }
 
-static void make_base(const struct gn_material_record *r, struct gn_material *m) {
-    for (int k = 0; k < 3; k++)
-        m->base_color[k] =
-            clamp(r->base_color[k] * glm_lerp(1, r->tint[k], m->transmission), 0, 1e4f);
-    m->base_color[3] = clamp(r->base_color[3], 0, 1);
+static float f0_of_ior(float ior) {
+    const float r = (ior - 1) / (ior + 1);
+    return fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
 }
 
-void gn_material_make(const struct gn_material_record *r, struct gn_material *m) {
-    const uint32_t moves = m->moves;
-    if (moves & GN_MOVES_METAL) m->metalness = clamp(r->metalness, 0, 1);
-    if (moves & GN_MOVES_ROUGH) m->roughness = clamp(r->roughness, 0, 1);
-    if (moves & GN_MOVES_EMISSIVE) gn_emissive_make(r->emissive, r->emissive_strength, m->emissive);
-    if (moves & GN_MOVES_CUTOFF) m->alpha_cutoff = clamp(r->alpha_cutoff, 0, 2);
-    if (moves & GN_MOVES_NORMAL) m->normal_scale = clamp(r->normal_scale, -1e4f, 1e4f);
-    if (moves & GN_MOVES_OCCLUSION) m->occlusion_strength = clamp(r->occlusion_strength, 0, 1);
-    if (moves & GN_MOVES_F0)
-        gn_f0_make(gn_f0_of_ior(clamp(r->ior, 0, 1e4f)), r->specular, r->specular_color, m->f0);
-    if (moves & GN_MOVES_COAT) {
-        m->coat = clamp(r->coat, 0, 1);
-        m->coat_roughness = clamp(r->coat_roughness, 0, 1);
+static struct gn_material_record clamped(const struct gn_material_record *record) {
+    struct gn_material_record r = *record;
+    for (size_t i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++) {
+        const struct gn_property *p = &gn_material_properties[i];
+        float *x = (float *)&r + p->first;
+        for (uint32_t k = 0; k < p->components; k++) x[k] = clamp(x[k], p->least, p->most);
     }
-    if (moves & GN_MOVES_TRANSMISSION) m->transmission = clamp(r->transmission, 0, 1);
-    if (moves & (GN_MOVES_BASE | GN_MOVES_TRANSMISSION)) make_base(r, m);
+    return r;
+}
+
+void gn_material_make(const struct gn_material_record *record, uint32_t moves,
+                      struct gn_material *m) {
+    const struct gn_material_record r = clamped(record);
+    if (moves & GN_MOVES_METAL) m->metalness = r.metalness;
+    if (moves & GN_MOVES_ROUGH) m->roughness = r.roughness;
+    if (moves & GN_MOVES_CUTOFF) m->alpha_cutoff = r.alpha_cutoff;
+    if (moves & GN_MOVES_NORMAL) m->normal_scale = r.normal_scale;
+    if (moves & GN_MOVES_OCCLUSION) m->occlusion_strength = r.occlusion_strength;
+    for (int i = 0; i < GN_FACTORS_SIZE; i++)
+        if (moves & GN_MOVES_FIRST_LAYER << i / 4) m->factors[i] = r.factors[i];
+    for (int k = 0; k < 3; k++) {
+        if (moves & GN_MOVES_EMISSIVE)
+            m->emissive[k] = fminf(r.emissive[k] * r.emissive_strength, 1e9f);
+        if (moves & GN_MOVES_F0)
+            m->f0[k] = fminf(f0_of_ior(r.ior) * r.specular_color[k], 1) * r.specular;
+        if (moves & (GN_MOVES_BASE | GN_MOVES_TRANSMISSION))
+            m->base_color[k] =
+                r.base_color[k] * glm_lerp(1, r.tint[k], m->factors[GN_FACTOR_TRANSMISSION]);
+    }
+    if (moves & GN_MOVES_BASE) m->base_color[3] = fminf(r.base_color[3], 1);
     for (int slot = 0; moves & GN_MOVES_UV && slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        make_moved_uv(&r->uv[slot], m->textures[slot].uv_from_uv);
+        make_moved_uv(&record->uv[slot], m->textures[slot].uv_from_uv);
 }

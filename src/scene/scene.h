@@ -64,9 +64,12 @@ enum gn_material_moves {
     GN_MOVES_NORMAL = 32,
     GN_MOVES_OCCLUSION = 64,
     GN_MOVES_F0 = 128,
-    GN_MOVES_COAT = 256,
-    GN_MOVES_TRANSMISSION = 512,
-    GN_MOVES_UV = 1024, /* transforms of its textures */
+    GN_MOVES_UV = 256, /* transforms of its textures */
+    GN_MOVES_FIRST_LAYER = 512,
+#define GN_X(NAME, ...) GN_MOVES_##NAME = GN_MOVES_FIRST_LAYER << GN_LAYER_##NAME,
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
+        GN_MOVES_LAYERS = GN_MOVES_FIRST_LAYER * ((1 << GN_LAYER_COUNT) - 1),
     GN_MOVES_CUT = GN_MOVES_BASE | GN_MOVES_CUTOFF | GN_MOVES_TRANSMISSION | GN_MOVES_UV,
 };
 enum gn_alpha { GN_ALPHA_OPAQUE, GN_ALPHA_MASK, GN_ALPHA_BLEND };
@@ -77,9 +80,8 @@ struct gn_material {
     float roughness, metalness, occlusion_strength, alpha_cutoff;
     float normal_scale; /* of x and y of the normal map */
     float lightmap_intensity;
-    float coat, coat_roughness; /* KHR_materials_clearcoat: how much of it, 0 to 1; 0 if unlit */
-    float transmission;         /* KHR_materials_transmission: 0 to 1; 0 if unlit */
-    vec3 f0;                    /* reflectance at normal incidence of what is no metal; GN_F0 */
+    float factors[GN_FACTORS_SIZE]; /* of its layers: [GN_FACTOR_COAT]; 0 if unlit */
+    vec3 f0;                        /* reflectance at normal incidence of what is no metal; GN_F0 */
     enum gn_alpha alpha;
     bool double_sided, unlit;
     bool shadow_catcher; /* unseen: black, its alpha the share of light that shadows take from it */

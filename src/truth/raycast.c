@@ -209,22 +209,6 @@ void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_
     gn_ray_eye_look(eye, &framing, width_px, height_px);
 }
 
-static void turn(double v[3], double c, double s) {
-    const double x = v[0], z = v[2];
-    v[0] = c * x + s * z;
-    v[2] = c * z - s * x;
-}
-
-void gn_ray_eye_turn(struct gn_ray_eye *eye, const double centre_ws[3], double angle_rad) {
-    const double c = cos(angle_rad), s = sin(angle_rad);
-    for (int k = 0; k < 3; k++) eye->position_ws[k] -= centre_ws[k];
-    turn(eye->position_ws, c, s);
-    for (int k = 0; k < 3; k++) eye->position_ws[k] += centre_ws[k];
-    turn(eye->right, c, s);
-    turn(eye->up, c, s);
-    turn(eye->forward, c, s);
-}
-
 double gn_ray_eye_pixel_m(const struct gn_ray_eye *eye, const double point_ws[3]) {
     double pixel = 2 * eye->half_height / eye->height_px;
     if (eye->orthographic) return pixel;

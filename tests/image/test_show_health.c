@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "core/clock.h"
-#include "kiosk/control/status.h"
 #include "kiosk/private.h"
 #include "unit/folder.h"
 #include "unit/health_help.h"
@@ -16,15 +15,14 @@
 
 #define ALARM "sys/class/hwmon/hwmon1/in0_lcrit_alarm"
 
-static json_t *board_of(const struct gn_show *show) {
-    struct gn_show_status status = {0};
-    json_t *all = gn_show_status_make(show, &status, (struct gn_control_counts){0});
+static json_t *board_of(struct gn_show *show) {
+    json_t *all = gn_parts_status(&show->parts, false);
     json_t *board = json_incref(json_object_get(all, "board"));
     json_decref(all);
     return board;
 }
 
-static void board_is(const struct gn_show *show, bool is_low, int times, int free_mb) {
+static void board_is(struct gn_show *show, bool is_low, int times, int free_mb) {
     json_t *board = board_of(show);
     assert_non_null(board);
     assert_int_equal(json_is_true(json_object_get(board, "undervoltage")), is_low);
@@ -38,11 +36,12 @@ static void board_is(const struct gn_show *show, bool is_low, int times, int fre
 /* Steps on until the problem is there or not. */
 static void problem_becomes(struct gn_show *show, const char *start) {
     for (int i = 0; i < 60000; i++, usleep(1000)) {
-        const char *problem = gn_show_problem(show);
+        const char *problem = gn_problem_last(&show->problems);
         if (start ? problem && strstr(problem, start) == problem : !problem) return;
         help_show_step(show);
     }
-    fail_msg("the problem is \"%s\"", gn_show_problem(show) ? gn_show_problem(show) : "");
+    fail_msg("the problem is \"%s\"",
+             gn_problem_last(&show->problems) ? gn_problem_last(&show->problems) : "");
 }
 
 /* A kiosk on a Pi 4 whose files are in `root`, and well. */
@@ -51,8 +50,12 @@ static struct gn_show *open_on_pi4(char *root) {
     health_pi4(root);
     struct gn_show *show =
         help_show_of("[kiosk]\n[mode \"a\"]\nshadow = none\n", (const char *const[]){NULL});
-    gn_show_open_health(show, root, GN_NS_PER_S / 200);
-    while (!show->health.log.begun) help_show_step(show);
+    show->parts.host.root = root;
+    show->parts.host.reading_ns = GN_NS_PER_S / 200;
+    gn_part_open(&show->parts, GN_PART_health);
+    json_t *board;
+    while (!(board = board_of(show))) help_show_step(show);
+    json_decref(board);
     return show;
 }
 
@@ -68,17 +71,17 @@ static void an_undervoltage_is_a_problem_until_it_is_cured(void **state) {
     struct gn_show *show = open_on_pi4(root);
     problem_becomes(show, NULL);
     board_is(show, false, 0, 392);
-    assert_string_equal(show->health.summary, "");
+    assert_string_equal(gn_parts_board(&show->parts), "");
     for (int times = 1; times <= 2; times++) {
         health_write(root, ALARM, "1\n");
         problem_becomes(show, "undervoltage: the board's supply is too weak; use the board's own");
         board_is(show, true, times, 392);
-        assert_non_null(strstr(show->health.summary, "undervoltage now"));
+        assert_non_null(strstr(gn_parts_board(&show->parts), "undervoltage now"));
         health_write(root, ALARM, "0\n");
         problem_becomes(show, NULL);
         board_is(show, false, times, 392);
     }
-    assert_string_equal(show->health.summary, "undervoltage 2 times before");
+    assert_string_equal(gn_parts_board(&show->parts), "undervoltage 2 times before");
     close_and_remove(show, root);
 }
 

@@ -26,22 +26,23 @@ static struct gn_show *open_show(const char *config) {
 
 /* The adapter that was configured is replaced by the fake. */
 static void take_fake(struct gn_show *show, struct cec_fake *fake) {
-    struct gn_show_television *t = &show->television;
-    struct gn_err err = {0};
-    assert_non_null(t->told);
-    struct gn_watch watch = {.events = EPOLLIN, .call = t->watch.call, .user = show};
-    const struct gn_television_opts opts = {
+    static struct gn_television_opts opts;
+    opts = (struct gn_television_opts){
         .cec = {.ops = &cec_fake_ops, .context = fake, .drm = "/nonexistent"},
         .second_ns = GN_NS_PER_S / 500};
-    char device[sizeof t->device];
-    memcpy(device, t->device, sizeof device);
-    gn_show_close_television(show);
-    t->told = gn_television_open(&opts, &err);
-    if (!t->told) fail_msg("%s", err.text);
-    memcpy(t->device, device, sizeof device);
-    t->watch = watch;
-    t->watch.fd = gn_television_fd(t->told);
-    assert_true(gn_loop_add(show->loop, &t->watch));
+    gn_part_close(&show->parts, GN_PART_television);
+    show->parts.host.television = &opts;
+    gn_part_open(&show->parts, GN_PART_television);
+}
+
+/* What the status has of the television; NULL: it has none. */
+static const char *status_of(struct gn_show *show, const char *key) {
+    static char text[200];
+    json_t *all = gn_parts_status(&show->parts, false);
+    const json_t *value = json_object_get(json_object_get(all, "television"), key);
+    snprintf(text, sizeof text, "%s", value ? json_string_value(value) : "");
+    json_decref(all);
+    return value ? text : NULL;
 }
 
 static void run_until(struct gn_show *show, int64_t until_ns) {
@@ -73,7 +74,6 @@ static void act(struct gn_show *show, enum gn_action_kind kind, enum gn_turn tur
 
 static void set_hours(struct gn_show *show, bool ended) {
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_HOURS, .time_ns = clock_ns, .by = ended};
-    show->hours.timer.due_ns = GN_LOOP_NEVER; /* the real ones are others */
     show->kiosk = gn_kiosk_step(&show->rules, &show->kiosk, &event);
     run_until(show, clock_ns + SECONDS(1));
 }
@@ -116,8 +116,8 @@ static void a_reload_tells_nothing_again(void **state) {
     assert_true(show->rules.sleeps_black);
     set_hours(show, true);
     is_told(fake, 0, 1);
-    assert_false(show->stage.display.screen.blank); /* black */
-    gn_show_open_television(show);                  /* what a reload does */
+    assert_false(show->stage.display.screen.blank);                /* black */
+    gn_part_television.reopen(show->parts.of[GN_PART_television]); /* what a reload does */
     help_show_step(show);
     is_told(fake, 0, 1);
     gn_show_close(show);
@@ -127,10 +127,10 @@ static void a_reload_tells_nothing_again(void **state) {
 static void problem_becomes(struct gn_show *show, bool is_there) {
     for (int i = 0; i < 60000; i++, usleep(1000)) {
         help_show_step(show);
-        const char *text = gn_show_problem(show);
+        const char *text = gn_problem_last(&show->problems);
         if ((text && strstr(text, "/dev/")) == is_there) return;
     }
-    fail_msg("the problem is \"%s\"", gn_show_problem(show));
+    fail_msg("the problem is \"%s\"", gn_problem_last(&show->problems));
 }
 
 static void its_problem_is_named_until_it_is_cured(void **state) {
@@ -141,13 +141,14 @@ static void its_problem_is_named_until_it_is_cured(void **state) {
     fake->nacks = -1;
     take_fake(show, fake);
     problem_becomes(show, true);
-    assert_non_null(strstr(gn_show_problem(show), "the television at /dev/cec0 does not answer"));
+    assert_non_null(
+        strstr(gn_problem_last(&show->problems), "the television at /dev/cec0 does not answer"));
     cec_fake_lock();
     fake->nacks = 0;
     cec_fake_unlock();
     problem_becomes(show, false);
-    assert_null(gn_show_problem(show));
-    assert_int_equal(show->television.state.told, GN_TELEVISION_ON);
+    assert_null(gn_problem_last(&show->problems));
+    assert_string_equal(status_of(show, "told"), "on");
 
     /* one of something else is not taken away */
     cec_fake_lock();
@@ -155,16 +156,16 @@ static void its_problem_is_named_until_it_is_cured(void **state) {
     cec_fake_unlock();
     act(show, GN_ACTION_BLANK, GN_TURN_ON, false);
     problem_becomes(show, true);
-    gn_show_report_problem(show, GN_PROBLEM_ACTION, "something else");
+    gn_problem_report(&show->problems, GN_PROBLEM_ACTION, "something else");
     cec_fake_lock();
     fake->nacks = 0;
     cec_fake_unlock();
     act(show, GN_ACTION_BLANK, GN_TURN_OFF, false);
-    for (int i = 0; i < 60000 && show->television.state.told != GN_TELEVISION_ON; i++) {
+    for (int i = 0; i < 60000 && strcmp(status_of(show, "told"), "on") != 0; i++) {
         help_show_step(show);
         usleep(1000);
     }
-    assert_string_equal(gn_show_problem(show), "something else");
+    assert_string_equal(gn_problem_last(&show->problems), "something else");
     gn_show_close(show);
 }
 
@@ -173,7 +174,7 @@ static void other_ways_of_off_tell_nothing(void **state) {
     struct gn_show *show = open_show("[schedule]\noff = dpms\ncec_device = /dev/null\n"
                                      "[mode \"a\"]\nshadow = none\n");
     help_show_step(show);
-    assert_null(show->television.told);
+    assert_null(status_of(show, "told"));
     gn_show_close(show);
 }
 

@@ -28,7 +28,7 @@ struct gn_show *help_show(const char *const more[]) {
     struct gn_show *show = gn_show_open(&options, &warnings, &err);
     gn_options_finish(&options);
     if (!show) fail_msg("%s", err.text);
-    gn_show_close_health(show); /* its readings end steps between frames */
+    gn_part_close(&show->parts, GN_PART_health); /* its readings end steps between frames */
     return show;
 }
 

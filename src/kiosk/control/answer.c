@@ -10,19 +10,19 @@
 #include "core/clock.h"
 #include "kiosk/control/control.h"
 #include "kiosk/control/listen.h"
-#include "kiosk/control/status.h"
 #include "kiosk/private.h"
 #include "kiosk/screenshot.h"
 
 static const int64_t SCREENSHOT_NS = 5 * GN_NS_PER_S; /* limit until its frame comes */
 
-struct gn_show_control {
+struct gn_show_control { /* the part's memory */
+    const struct gn_part_host *host;
     struct gn_control *control;
     struct gn_watch screenshot_done;
     struct gn_timer screenshot_late;
     const struct gn_request *screenshot, *reload; /* to be answered later; NULL: none */
-    char dark[256]; /* of the screenshot: why it is a text; "": it is a frame */
-    struct gn_show_status status;
+    char dark[256];                  /* of the screenshot: why it is a text; "": it is a frame */
+    struct gn_control_counts counts; /* for the status */
 };
 
 /* ---- opening ---- */
@@ -36,16 +36,16 @@ static void close_all(struct gn_show *s, struct gn_show_control *c) {
     gn_screenshot_destroy(s->screenshot);
     s->screenshot = NULL;
     gn_control_close(c->control);
-    free(c);
 }
 
-void gn_show_open_control(struct gn_show *s) {
+static void open_control(void *part) {
+    struct gn_show_control *c = part;
+    struct gn_show *s = c->host->show;
     char path[GN_LISTEN_PATH_MAX];
     struct gn_err err = {0};
     const char *named = s->stage.settings->kiosk.socket;
     if (!named && (s->stage.display.ops->is_window || !gn_listen_default(path, sizeof path)))
         return;
-    struct gn_show_control *c = gn_xalloc(1, sizeof *c);
     c->screenshot_late =
         (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = give_up_screenshot, .user = s};
     gn_loop_add_timer(s->loop, &c->screenshot_late);
@@ -65,12 +65,14 @@ void gn_show_open_control(struct gn_show *s) {
     if (named)
         gn_show_report_error(s, GN_PROBLEM_START, err.text);
     else
-        gn_show_report_problem(s, GN_PROBLEM_START, err.text);
+        gn_problem_report(&s->problems, GN_PROBLEM_START, err.text);
     close_all(s, c);
 }
 
-void gn_show_close_control(struct gn_show *s) {
-    if (s->control) close_all(s, s->control);
+static void close_control(void *part) {
+    struct gn_show_control *c = part;
+    struct gn_show *s = c->host->show;
+    if (s->control) close_all(s, c);
     s->control = NULL;
 }
 
@@ -82,12 +84,15 @@ static json_t *answer_action(struct gn_show *s, const struct gn_request *r, stru
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     const struct gn_ctl_row *row = &gn_ctl_rows[r->command];
     const bool turns = gn_ctl_words_least(r->command) < gn_ctl_words(r->command);
-    if (turns && !gn_turn_parse(r->words[0], row->name, &action.turn, err)) return NULL;
+    if (turns && !gn_turn_parse(r->words[0], &action.turn, err)) {
+        gn_fail_prefix(err, "%s", row->name);
+        return NULL;
+    }
     if (!gn_show_check_action(s, &action, err)) return NULL;
     const bool was_dark = s->kiosk.blanked;
     gn_show_act(s, &action, now_ns);
     if (was_dark && action.kind != GN_ACTION_BLANK) gn_show_act(s, &action, now_ns);
-    return gn_show_status_short(s);
+    return gn_parts_status(&s->parts, true);
 }
 
 /* ---- options ---- */
@@ -231,14 +236,14 @@ void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
     const struct gn_request *r = c->reload;
     c->reload = NULL;
     if (r && why) gn_control_refuse(c->control, r, why);
-    if (r && !why) gn_control_answer(c->control, r, gn_show_status_short(s));
+    if (r && !why) gn_control_answer(c->control, r, gn_parts_status(&s->parts, true));
 }
 
 /* ---- requests ---- */
 
 static json_t *answer_status(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     (void)r, (void)err;
-    return gn_show_status_make(s, &s->control->status, gn_control_counts(s->control->control));
+    return gn_parts_status(&s->parts, false);
 }
 
 static json_t *answer_quit(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
@@ -258,9 +263,10 @@ static answer_fn *const answers[GN_CTL_COUNT] = {
 #undef X
 };
 
-void gn_show_answer_requests(struct gn_show *s) {
-    struct gn_show_control *c = s->control;
-    if (!c) return;
+static void answer_requests(void *part) {
+    struct gn_show_control *c = part;
+    struct gn_show *s = c->host->show;
+    if (!s->control) return;
     for (const struct gn_request *r; (r = gn_control_next(c->control)) != NULL;) {
         struct gn_err err = {0};
         json_t *reply = answers[r->command](s, r, &err);
@@ -270,3 +276,34 @@ void gn_show_answer_requests(struct gn_show *s) {
             gn_control_answer(c->control, r, reply);
     }
 }
+
+/* ---- the part -------------------------------------------------------------------------------- */
+
+static const void *control_status(void *part) {
+    struct gn_show_control *c = part;
+    if (!c->host->show->control) return NULL;
+    c->counts = gn_control_counts(c->control);
+    return c;
+}
+
+#define METRIC(member, ...)                                                                        \
+    GN_METRIC(struct gn_show_control, counts.member, "control." #member, __VA_ARGS__)
+static const struct gn_metric metrics[] = {
+    METRIC(accepted, "", "clients"),
+    METRIC(refused, "", "clients that were not permitted, or too many"),
+    METRIC(requests, "", "of clients"),
+    METRIC(wrong, "", "requests that could not be parsed"),
+    METRIC(busy, "", "requests that came too often"),
+    METRIC(answered, "", "requests"),
+    METRIC(cut, "", "clients closed because they did not read"),
+};
+
+const struct gn_part gn_part_control = {
+    .name = "control",
+    .size = sizeof(struct gn_show_control),
+    .open = open_control,
+    .look = answer_requests,
+    .status = control_status,
+    GN_PART_METRICS(metrics),
+    .close = close_control,
+};

@@ -1,8 +1,6 @@
-#include "kiosk/control/status.h"
-
+/* The metrics that are of the whole kiosk: rows without a turn of their own. */
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <config.h> /* the generated one */
@@ -12,18 +10,19 @@
 #include "kiosk/private.h"
 #include "stage/lights.h"
 
-/* Resident memory in MiB: cheap to read, and shows leaks. */
-static double memory_mb(struct gn_show_status *status, int64_t now_ns) {
-    long pages = 0;
-    if (status->memory_ns != 0 && now_ns - status->memory_ns < GN_NS_PER_S)
-        return status->memory_mb;
-    FILE *file = fopen("/proc/self/statm", "re");
-    if (file && fscanf(file, "%*s %ld", &pages) != 1) pages = 0;
-    if (file) fclose(file);
-    status->memory_ns = now_ns;
-    status->memory_mb = (double)pages * (double)sysconf(_SC_PAGESIZE) / (1024.0 * 1024.0);
-    return status->memory_mb;
-}
+/* ---- what is shown, and on what -------------------------------------------------------------- */
+
+struct status {
+    const struct gn_part_host *host;
+    const char *version, *mode, *scene, *plays;
+    const char *backend, *range, *config, *error, *problem;
+    int pid, camera, median_frames, worst_frames, pointers, fps;
+    bool paused, blanked, info, waits;
+    double uptime_s, median_ms, worst_ms;
+    uint64_t drawn, seen;
+    struct gn_screen screen;
+    json_t *modes, *lights;
+};
 
 /* Of the wanted mode, as it will be entered; while another scene is wanted, of the one shown. */
 static uint32_t camera_of(const struct gn_show *s) {
@@ -36,11 +35,11 @@ static uint32_t camera_of(const struct gn_show *s) {
     return (first + (resets ? 0 : s->kiosk.camera)) % s->stage.scene->camera_count;
 }
 
-/* What holds of the settings of single lights: {name: text}. */
+/* What holds of the settings of single lights: {name: text}; NULL: there are none. */
 static json_t *lights_json(const struct gn_show *s) {
     const struct gn_settings *o = s->stage.settings;
     const struct gn_scene *scene = s->stage.scene;
-    json_t *lights = json_object();
+    json_t *lights = o->light_count > 0 ? json_object() : NULL;
     for (int i = 0; i < o->light_count; i++) {
         char holds[400];
         bool here = false;
@@ -56,134 +55,168 @@ static json_t *lights_json(const struct gn_show *s) {
     return lights;
 }
 
-/* The counters over all starts. */
-static json_t *state_json(const struct gn_show_memory *memory) {
-    json_t *state = json_pack("{s:o}", "file", gn_json_make_text(memory->path));
-#define X(id) json_object_set_new(state, #id, json_integer((json_int_t)memory->state.counts.id));
-    GN_STATE_COUNTS(X)
-#undef X
-    return state;
+static json_t *modes_json(const struct gn_show_modes *modes) {
+    json_t *names = json_array();
+    for (int i = 0; i < modes->count; i++)
+        json_array_append_new(names, gn_json_make_text(modes->names[i]));
+    return names;
 }
 
-static json_t *television_json(const struct gn_show_television *tv) {
-    static const char *const wishes[] = {"", "on", "standby"};
-    const struct gn_television_state *t = &tv->state;
-    return json_pack("{s:s, s:s, s:o, s:o, s:I}", "wanted",
-                     !tv->is_set ? ""
-                     : tv->on    ? "on"
-                                 : "standby",
-                     "told", wishes[t->told], "device", gn_json_make_text(t->device), "waits",
-                     gn_json_make_text(t->waits[0] ? t->waits : NULL), "attempts",
-                     (json_int_t)t->attempts);
-}
-
-/* What the kernel does not tell is null. */
-static json_t *known_json(bool is_known, json_int_t value) {
-    return is_known ? json_integer(value) : json_null();
-}
-
-/* What is so now, by the last reading, and how often it began. */
-static json_t *board_json(const struct gn_health_log *log) {
-    const struct gn_health *h = &log->last;
-    const struct gn_ailment *of = log->of;
-    const bool has_cma = h->cma_kb > 0 && h->cma_free_kb >= 0;
-    const bool tells_voltage = h->undervoltage >= 0 || h->firmware >= 0;
-    const bool tells_clock = h->cooled >= 0 || h->firmware >= 0;
-    return json_pack(
-        "{s:o, s:o, s:b, s:i, s:i, s:i, s:o, s:o, s:o}", "undervoltage",
-        tells_voltage ? json_boolean(of[GN_HEALTH_VOLTAGE].lasts) : json_null(), "throttled",
-        tells_clock ? json_boolean(of[GN_HEALTH_THROTTLED].lasts) : json_null(), "cma_runs_out",
-        of[GN_HEALTH_CMA].lasts, "undervoltages", (int)of[GN_HEALTH_VOLTAGE].times, "throttlings",
-        (int)of[GN_HEALTH_THROTTLED].times, "cma_shortages", (int)of[GN_HEALTH_CMA].times, "cma_mb",
-        known_json(has_cma, h->cma_kb / 1024), "cma_free_mb",
-        known_json(has_cma, h->cma_free_kb / 1024), "temperature_c",
-        h->hottest_mc > 0 ? gn_json_make_number((double)h->hottest_mc * 1e-3) : json_null());
-}
-
-json_t *gn_show_status_short(const struct gn_show *s) {
-    const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &s->kiosk.wanted)];
-    const int clip = s->kiosk.play.clip_plus_1 - 1;
-    const bool plays = clip >= 0 && (uint32_t)clip < s->stage.scene->animation.clip_count;
-    return json_pack("{s:o, s:o, s:i, s:b, s:b, s:b, s:o}", "mode",
-                     gn_json_make_text(s->modes.names[s->kiosk.wanted.mode]), "scene",
-                     gn_json_make_text(scene ? scene : "(default scene)"), "camera",
-                     (int)camera_of(s), "paused", s->kiosk.paused, "blanked", s->kiosk.blanked,
-                     "info", s->kiosk.info, "plays",
-                     gn_json_make_text(plays ? s->stage.scene->animation.clips[clip].name : NULL));
-}
-
-static json_t *screen_json(const struct gn_display *display) {
+static const void *kiosk_status(void *part) {
     static const char *const ranges[] = {"auto", "full", "limited"};
-    const struct gn_screen *screen = &display->screen;
-    return json_pack("{s:s, s:o, s:o, s:b, s:i, s:i, s:i, s:s}", "backend",
-                     display->ops ? display->ops->name : "", "what",
-                     gn_json_make_text(screen->what), "status", gn_json_make_text(screen->status),
-                     "lit", screen->lit, "width", (int)screen->width_px, "height",
-                     (int)screen->height_px, "rotate", (int)screen->rotate_deg, "range",
-                     ranges[screen->range]);
-}
-
-static json_t *frames_json(uint64_t drawn, const struct gn_screen_counts *frames) {
-    return json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "drawn", (json_int_t)drawn,
-                     "shown", (json_int_t)frames->shown, "again", (json_int_t)frames->again,
-                     "missed", (json_int_t)frames->missed, "retried", (json_int_t)frames->retried,
-                     "stalled", (json_int_t)frames->stalled, "relit", (json_int_t)frames->relit,
-                     "opened", (json_int_t)frames->opened);
-}
-
-json_t *gn_show_status_make(const struct gn_show *s, struct gn_show_status *status,
-                            struct gn_control_counts c) {
+    struct status *v = part;
+    const struct gn_show *s = v->host->show;
+    const struct gn_kiosk *k = &s->kiosk;
     const struct gn_options *o = s->config.options;
+    const struct gn_display *display = &s->stage.display;
     const struct gn_latency_report latency = gn_latency_read(&s->buttons.latency);
+    const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &k->wanted)];
+    const int clip = k->play.clip_plus_1 - 1;
+    const bool plays = clip >= 0 && (uint32_t)clip < s->stage.scene->animation.clip_count;
     const int64_t now_ns = gn_loop_now_ns(s->loop);
-    json_t *modes = json_array();
-    for (int i = 0; i < s->modes.count; i++)
-        json_array_append_new(modes, gn_json_make_text(s->modes.names[i]));
-
-    json_t *reply = json_pack("{s:s, s:i, s:f}", "version", GN_VERSION, "pid", (int)getpid(),
-                              "uptime_s", (double)(now_ns - s->counts.begun_ns) * 1e-9);
-    json_object_update_new(reply, gn_show_status_short(s));
-    json_object_set_new(reply, "waits", json_boolean(s->config.waits || gn_kiosk_waits(&s->kiosk)));
-    json_object_set_new(reply, "modes", modes);
-    if (s->stage.settings->light_count > 0) json_object_set_new(reply, "lights", lights_json(s));
-    json_object_set_new(reply, "screen", screen_json(&s->stage.display));
-    json_object_set_new(reply, "frames",
-                        frames_json(s->counts.frames, &s->stage.display.screen.counts));
-    json_object_set_new(
-        reply, "input",
-        json_pack("{s:I, s:o, s:o, s:i, s:i, s:i}", "seen", (json_int_t)latency.count, "median_ms",
-                  gn_json_make_number((double)latency.median.ns * 1e-6), "worst_ms",
-                  gn_json_make_number((double)latency.worst.ns * 1e-6), "median_frames",
-                  latency.median.frames, "worst_frames", latency.worst.frames, "pointers",
-                  s->buttons.input ? gn_input_pointers(s->buttons.input) : 0));
-    json_object_set_new(reply, "fps", json_integer(gn_frame_times_fps(&s->counts.times, now_ns)));
-    json_object_set_new(reply, "config",
-                        json_pack("{s:o, s:o}", "path", gn_json_make_text(o->config_path), "error",
-                                  gn_json_make_text(o->config_error)));
-    json_object_set_new(reply, "problem", gn_json_make_text(gn_show_problem(s)));
-    if (s->memory.path[0]) json_object_set_new(reply, "state", state_json(&s->memory));
-    json_object_set_new(reply, "missing",
-                        gn_json_make_text(s->stage.scene ? s->stage.scene->missing : NULL));
-    if (s->config.has_past)
-        json_object_set_new(reply, "rollback",
-                            gn_json_make_text(s->config.past[0] ? s->config.past : "(configured)"));
-    const struct gn_schedule *hours = &o->settings->schedule.on;
-    if (hours->count > 0 || o->settings->schedule.dim.count > 0) {
-        const int64_t next_s = gn_schedule_next(hours, time(NULL));
-        json_object_set_new(reply, "schedule",
-                            json_pack("{s:b, s:b, s:b, s:I}", "on", !s->kiosk.asleep, "dim",
-                                      s->hours.dims, "clock", s->hours.is_set, "next",
-                                      (json_int_t)(next_s == INT64_MAX ? 0 : next_s)));
-    }
-    if (s->television.told)
-        json_object_set_new(reply, "television", television_json(&s->television));
-    if (s->health.log.begun) json_object_set_new(reply, "board", board_json(&s->health.log));
-    json_object_set_new(reply, "memory_mb", gn_json_make_number(memory_mb(status, now_ns)));
-    json_object_set_new(reply, "control",
-                        json_pack("{s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "accepted",
-                                  (json_int_t)c.accepted, "refused", (json_int_t)c.refused,
-                                  "requests", (json_int_t)c.requests, "wrong", (json_int_t)c.wrong,
-                                  "busy", (json_int_t)c.busy, "answered", (json_int_t)c.answered,
-                                  "cut", (json_int_t)c.cut));
-    return reply;
+    *v = (struct status){
+        .host = v->host,
+        .version = GN_VERSION,
+        .pid = (int)getpid(),
+        .uptime_s = (double)(now_ns - s->counts.begun_ns) * 1e-9,
+        .mode = s->modes.names[k->wanted.mode],
+        .scene = scene ? scene : "(default scene)",
+        .camera = (int)camera_of(s),
+        .paused = k->paused,
+        .blanked = k->blanked,
+        .info = k->info,
+        .plays = plays ? s->stage.scene->animation.clips[clip].name : NULL,
+        .waits = s->config.waits || gn_kiosk_waits(k),
+        .modes = modes_json(&s->modes),
+        .lights = lights_json(s),
+        .backend = display->ops ? display->ops->name : "",
+        .screen = display->screen,
+        .range = ranges[display->screen.range],
+        .drawn = s->counts.frames,
+        .seen = latency.count,
+        .median_ms = (double)latency.median.ns * 1e-6,
+        .worst_ms = (double)latency.worst.ns * 1e-6,
+        .median_frames = latency.median.frames,
+        .worst_frames = latency.worst.frames,
+        .pointers = s->buttons.input ? gn_input_pointers(s->buttons.input) : 0,
+        .fps = gn_frame_times_fps(&s->counts.times, now_ns),
+        .config = o->config_path,
+        .error = o->config_error,
+        .problem = gn_problem_last(&s->problems),
+    };
+    return v;
 }
+
+#define METRIC(member, ...) GN_METRIC(struct status, member, __VA_ARGS__)
+static const struct gn_metric kiosk_metrics[] = {
+    METRIC(version, "version", "", "of the program"),
+    METRIC(pid, "pid", "", "of its process"),
+    METRIC(uptime_s, "uptime_s", "s", "since it was started"),
+    METRIC(mode, "mode", "", "that is shown, or waited for", .brief = true),
+    METRIC(scene, "scene", "", "likewise", .brief = true),
+    METRIC(camera, "camera", "", "likewise, by its number in the scene", .brief = true),
+    METRIC(paused, "paused", "", "the scene's time stands", .brief = true),
+    METRIC(blanked, "blanked", "", "the screen is switched off by blank", .brief = true),
+    METRIC(info, "info", "", "the information page is shown", .brief = true),
+    METRIC(plays, "plays", "", "the clip that plays once", .brief = true),
+    METRIC(waits, "waits", "", "mode, scene or options are not shown yet"),
+    METRIC(modes, "modes", "", "names of all modes"),
+    METRIC(lights, "lights", "", "of each [light NAME]: what is set"),
+    METRIC(backend, "screen.backend", "", "the display"),
+    METRIC(screen.what, "screen.what", "", "connector and mode in use"),
+    METRIC(screen.status, "screen.status", "", "what is waited for"),
+    METRIC(screen.lit, "screen.lit", "", "it shows a picture"),
+    METRIC(screen.width_px, "screen.width", "px", "of the screen"),
+    METRIC(screen.height_px, "screen.height", "px", "of the screen"),
+    METRIC(screen.rotate_deg, "screen.rotate", "degrees", "clockwise"),
+    METRIC(range, "screen.range", "", "levels of the signal"),
+    METRIC(drawn, "frames.drawn", "frames", "by the GPU"),
+    METRIC(screen.counts.shown, "frames.shown", "frames", "flips that completed, repeats included"),
+    METRIC(screen.counts.again, "frames.again", "frames", "of them, repeats of the one before"),
+    METRIC(screen.counts.missed, "frames.missed", "frames",
+           "refreshes missed while one was in flight"),
+    METRIC(screen.counts.retried, "frames.retried", "", "commits that were refused for a while"),
+    METRIC(screen.counts.stalled, "frames.stalled", "frames",
+           "flips that did not complete in time"),
+    METRIC(screen.counts.relit, "frames.relit", "", "modesets"),
+    METRIC(screen.counts.opened, "frames.opened", "", "how often a card was opened"),
+    METRIC(seen, "input.seen", "", "edges of buttons whose effect was shown"),
+    METRIC(median_ms, "input.median_ms", "ms", "from an edge to its frame"),
+    METRIC(worst_ms, "input.worst_ms", "ms", "from an edge to its frame"),
+    METRIC(median_frames, "input.median_frames", "frames", "from an edge to its frame"),
+    METRIC(worst_frames, "input.worst_frames", "frames", "from an edge to its frame"),
+    METRIC(pointers, "input.pointers", "", "touch screens and mice"),
+    METRIC(fps, "fps", "frames", "in the last second"),
+    METRIC(config, "config.path", "", "the configuration file"),
+    METRIC(error, "config.error", "", "why it is not in use"),
+    METRIC(problem, "problem", "", "the last that is not cured"),
+};
+
+const struct gn_part gn_part_kiosk = {
+    .name = "kiosk",
+    .size = sizeof(struct status),
+    .status = kiosk_status,
+    GN_PART_METRICS(kiosk_metrics),
+};
+
+/* ---- the scene ------------------------------------------------------------------------------- */
+
+struct scene {
+    const struct gn_part_host *host;
+    const char *missing;
+    json_t *rollback;
+};
+
+static const void *scene_status(void *part) {
+    struct scene *v = part;
+    const struct gn_show *s = v->host->show;
+    const char *past = s->config.past[0] ? s->config.past : "(configured)";
+    v->missing = s->stage.scene ? s->stage.scene->missing : NULL;
+    v->rollback = s->config.has_past ? gn_json_make_text(past) : NULL;
+    return v;
+}
+
+static const struct gn_metric scene_metrics[] = {
+    GN_METRIC(struct scene, missing, "missing", "", "what the scene is shown without"),
+    GN_METRIC(struct scene, rollback, "rollback", "", "the scene of ctl rollback"),
+};
+
+const struct gn_part gn_part_scene = {
+    .name = "scene",
+    .size = sizeof(struct scene),
+    .status = scene_status,
+    GN_PART_METRICS(scene_metrics),
+};
+
+/* ---- the process ----------------------------------------------------------------------------- */
+
+struct process {
+    const struct gn_part_host *host;
+    int64_t read_ns; /* at most once a second; 0: not yet */
+    double memory_mb;
+};
+
+/* Resident memory: cheap to read, and shows leaks. */
+static const void *process_status(void *part) {
+    struct process *v = part;
+    const int64_t now_ns = gn_loop_now_ns(v->host->loop);
+    long pages = 0;
+    if (v->read_ns != 0 && now_ns - v->read_ns < GN_NS_PER_S) return v;
+    FILE *file = fopen("/proc/self/statm", "re");
+    if (file && fscanf(file, "%*s %ld", &pages) != 1) pages = 0;
+    if (file) fclose(file);
+    v->read_ns = now_ns;
+    v->memory_mb = (double)pages * (double)sysconf(_SC_PAGESIZE) / (1024.0 * 1024.0);
+    return v;
+}
+
+static const struct gn_metric process_metrics[] = {
+    GN_METRIC(struct process, memory_mb, "memory_mb", "MiB", "resident memory of the program"),
+};
+
+const struct gn_part gn_part_process = {
+    .name = "process",
+    .size = sizeof(struct process),
+    .status = process_status,
+    GN_PART_METRICS(process_metrics),
+};

@@ -132,19 +132,15 @@ bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
 
 /* ---- versions and extensions ---- */
 
+/* Beside those that properties of materials belong to (scene/property.h). */
 static const char *const SUPPORTED[] = {
     "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
     "MOZ_lightmap",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
     "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_clearcoat",
-    "KHR_materials_transmission",
     "EXT_texture_webp",
     "KHR_texture_basisu",
     "KHR_materials_variants",
@@ -161,7 +157,16 @@ static const struct cure {
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 
+static bool has_properties(const char *extension) {
+    char start[128];
+    const int length = snprintf(start, sizeof start, "extensions.%s.", extension);
+    for (int i = 0; i < GN_MATERIAL_PROPERTY_COUNT && length < (int)sizeof start; i++)
+        if (strncmp(gn_material_properties[i].path, start, (size_t)length) == 0) return true;
+    return false;
+}
+
 bool gn_gltf_supports(const char *name) {
+    if (has_properties(name)) return true;
     for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
         if (strcmp(SUPPORTED[i], name) == 0) return true;
     return (strcmp(name, "EXT_meshopt_compression") == 0 ||

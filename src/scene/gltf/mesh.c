@@ -48,7 +48,7 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         out[i] = gn_at_ref(g, &attributes, semantics[i], g->file.accessor_count, "accessors");
     if (!with_tangents || out[GN_ATTRIBUTE_NORMAL] < 0) out[GN_ATTRIBUTE_TANGENT] = -1;
     choose_joints(g, primitive, with_skin, out);
-    struct gn_at draco = gn_at_extension(g, primitive, "extensions.KHR_draco_mesh_compression");
+    struct gn_at draco = gn_at_object(g, primitive, "extensions.KHR_draco_mesh_compression");
     const struct gn_accessor *positions = gn_gltf_accessor(g, out[GN_ATTRIBUTE_POSITION]);
     if (g->failed) return 0;
     if (draco.json && positions && !positions->backed) {

@@ -6,7 +6,7 @@
 #define VARIANTS "extensions.KHR_materials_variants"
 
 bool gn_gltf_variants(struct gn_gltf *g) {
-    struct gn_at root = gn_at_root(g), extension = gn_at_extension(g, &root, VARIANTS);
+    struct gn_at root = gn_at_root(g), extension = gn_at_object(g, &root, VARIANTS);
     struct gn_at list = gn_at_array(g, &extension, "variants");
     struct gn_scene_variants *variants = &g->scene->variants;
     size_t count = gn_at_size(&list);
@@ -25,7 +25,7 @@ bool gn_gltf_variants(struct gn_gltf *g) {
 
 static struct gn_at mappings_of(struct gn_gltf *g, const struct gn_at *primitive,
                                 struct gn_at *extension) {
-    *extension = gn_at_extension(g, primitive, VARIANTS);
+    *extension = gn_at_object(g, primitive, VARIANTS);
     return gn_at_array(g, extension, "mappings");
 }
 
@@ -37,7 +37,7 @@ size_t gn_gltf_variant_most(struct gn_gltf *g, const struct gn_at *primitive) {
 
 /* The bits of the variants of a mapping; a variant that an earlier mapping has stays with that. */
 static uint64_t read_bits(struct gn_gltf *g, const struct gn_at *mapping, uint64_t taken) {
-    struct gn_at root = gn_at_root(g), extension = gn_at_extension(g, &root, VARIANTS);
+    struct gn_at root = gn_at_root(g), extension = gn_at_object(g, &root, VARIANTS);
     struct gn_at all = gn_at_array(g, &extension, "variants");
     struct gn_at list = gn_at_array(g, mapping, "variants");
     uint64_t bits = 0;

@@ -1,0 +1,33 @@
+/* What is wrong while the kiosk runs on: one text of each kind, which ends once that is cured. */
+#ifndef GN_KIOSK_PROBLEMS_H
+#define GN_KIOSK_PROBLEMS_H
+
+enum gn_problem {
+    GN_PROBLEM_START,      /* of this start, for good */
+    GN_PROBLEM_CONFIG,     /* until a reload succeeds */
+    GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is */
+    GN_PROBLEM_MODE,       /* until that mode is shown, or a reload */
+    GN_PROBLEM_SCENE,      /* likewise */
+    GN_PROBLEM_WATCH,      /* changes of files are not noticed */
+    GN_PROBLEM_SHADERS,    /* of --shaders; until they can be used */
+    GN_PROBLEM_STATE,      /* until it is saved */
+    GN_PROBLEM_TELEVISION, /* until it answers */
+    GN_PROBLEM_RANGE,      /* until a connector has it, or none is asked for */
+    GN_PROBLEM_VOLTAGE,    /* of the board; until it was well for a minute, like the next two */
+    GN_PROBLEM_THROTTLED,
+    GN_PROBLEM_CMA,
+    GN_PROBLEM_COUNT,
+};
+struct gn_problems {                /* zeroed: none */
+    char of[GN_PROBLEM_COUNT][512]; /* "": none */
+    unsigned begun[GN_PROBLEM_COUNT], count;
+    int mode, scene; /* that cannot be shown */
+};
+
+/* Prints a text that differs from the last of its kind as a warning to stderr. */
+void gn_problem_report(struct gn_problems *problems, enum gn_problem kind, const char *text);
+void gn_problem_cure(struct gn_problems *problems, enum gn_problem kind);
+/* The last that is not cured, or NULL. */
+const char *gn_problem_last(const struct gn_problems *problems);
+
+#endif
