@@ -127,24 +127,6 @@ static void test_time_is_exact_after_years(void **state) {
     assert_true(pose.world_from_node[0][3][0] == 1);
 }
 
-/* Of a clip that was cut from a longer one. */
-static void test_keys_before_zero_are_played_from_zero_on(void **state) {
-    (void)state;
-    static const float times[] = {-1, 1, 3};
-    const int input = gn_maker_accessor(&maker, "SCALAR", 5126, 3, times, sizeof times, NULL);
-    char json[200];
-    snprintf(json, sizeof json,
-             "{'samplers':[{'input':%d,'output':%d}],"
-             "'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}]}",
-             input, MOVE);
-    gn_maker_add(&maker, "animations", json);
-    load(GN_POSE_DEFAULT);
-    assert_int_equal(warnings.count, 0);
-    assert_int_equal(scene->animation.clips[0].duration_ns, 3 * GN_NS_PER_S);
-    assert_at(0, 0, 2, 0, 0);
-    assert_at(1, 0, 4, 0, 0);
-}
-
 static void test_clips(void **state) {
     (void)state;
     animate("translation", MOVE, "LINEAR");
@@ -314,15 +296,6 @@ static void test_items_follow_and_nothing_is_allocated(void **state) {
             assert_true(pose.items[i].hash != moved);
     }
     assert_int_equal(gn_alloc_count(), before);
-}
-
-static void test_a_scene_without_anything_to_see_is_named(void **state) {
-    (void)state;
-    gn_maker_set(&maker, "nodes", "[{'mesh':0,'scale':[0,0,0]}]");
-    gn_maker_set(&maker, "scenes", "[{'nodes':[0]}]");
-    load(GN_POSE_NONE);
-    assert_int_equal(warnings.count, 1);
-    assert_non_null(strstr(warnings.text[0], "nothing can be seen"));
 }
 
 static void test_mirrored_and_invisible(void **state) {
@@ -501,7 +474,6 @@ int main(void) {
         TEST(test_cubic),
         TEST(test_rotation_takes_the_short_way),
         TEST(test_time_is_exact_after_years),
-        TEST(test_keys_before_zero_are_played_from_zero_on),
         TEST(test_clips),
         TEST(test_a_clip_over_others),
         TEST(test_turns_and_speed_of_clips),
@@ -509,7 +481,6 @@ int main(void) {
         TEST(test_a_fade_between_clips),
         TEST(test_items_follow_and_nothing_is_allocated),
         TEST(test_mirrored_and_invisible),
-        TEST(test_a_scene_without_anything_to_see_is_named),
         TEST(test_unusable_channels_are_left_out),
         TEST(test_a_matrix_that_is_animated),
         TEST(test_view_and_light),
