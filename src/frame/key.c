@@ -22,15 +22,6 @@ static uint64_t ambient_textures(void) {
     return features;
 }
 
-static uint64_t layer_features(const struct gn_material *m) {
-    uint64_t features = 0;
-#define GN_X(NAME, ...)                                                                            \
-    if (gn_material_has(m, GN_LAYER_##NAME)) features |= GN_FEATURE(NAME);
-    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
-#undef GN_X
-    return features;
-}
-
 /* How its vertices are posed. */
 static uint64_t deformation_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_geometry *geometry = &scene->geometries[item->geometry];
@@ -92,7 +83,10 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     const uint64_t attributes = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
     features |= attributes << GN_FEATURE_FIRST_ATTRIBUTE;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
-    features |= layer_features(m);
+#define GN_X(NAME, ...)                                                                            \
+    if (gn_material_has(m, GN_LAYER_##NAME)) features |= GN_FEATURE(NAME);
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
     if (gn_key_is_tinted(scene, item)) features |= GN_FEATURE(TINTED);
     if (!frame->plan.tones_sum) features |= gn_frame_tone_feature(frame);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)

@@ -14,30 +14,19 @@ static const struct gn_property properties[] = {
 #undef GN_X
 };
 
-const struct gn_property gn_material_properties[GN_MATERIAL_PROPERTY_COUNT] = {
-#define GN_X(path, field, components, MOVES, fallback, least, most)                                \
-    {GN_THING_MATERIAL,                                                                            \
-     path,                                                                                         \
-     FLOATS(material, field),                                                                      \
-     components,                                                                                   \
-     GN_MOVES_##MOVES,                                                                             \
-     fallback,                                                                                     \
-     least,                                                                                        \
-     most},
+const struct gn_property gn_material_properties[] = {
+#define GN_X(path, field, components, MOVES, ...)                                                  \
+    {GN_THING_MATERIAL, path, FLOATS(material, field), components, GN_MOVES_##MOVES, __VA_ARGS__},
     GN_MATERIAL_PROPERTIES(GN_X)
 #undef GN_X
-#define GN_X(LAYER, NAME, first, components, path, fallback, least, most)                          \
-    {GN_THING_MATERIAL,                                                                            \
-     path,                                                                                         \
-     FLOATS(material, factors[GN_FACTOR_##NAME]),                                                  \
-     components,                                                                                   \
-     GN_MOVES_##LAYER,                                                                             \
-     fallback,                                                                                     \
-     least,                                                                                        \
-     most},
+#define GN_X(LAYER, NAME, first, components, path, ...)                                            \
+    {GN_THING_MATERIAL, path,       FLOATS(material, factors) + GN_FACTOR_##NAME, components,      \
+     GN_MOVES_##LAYER,  __VA_ARGS__},
         GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
 #undef GN_X
 };
+const size_t gn_material_property_count =
+    sizeof gn_material_properties / sizeof *gn_material_properties;
 
 static float clamp(float x, float least, float most) { return fminf(fmaxf(x, least), most); }
 
@@ -80,7 +69,7 @@ static bool find_transform(const char *pointer, struct gn_property *out) {
 bool gn_property_find(enum gn_thing thing, const char *pointer, struct gn_property *out) {
     const bool material = thing == GN_THING_MATERIAL;
     const struct gn_property *rows = material ? gn_material_properties : properties;
-    const size_t count = material ? GN_MATERIAL_PROPERTY_COUNT : sizeof properties / sizeof *rows;
+    const size_t count = material ? gn_material_property_count : sizeof properties / sizeof *rows;
     for (size_t i = 0; i < count; i++) {
         const char *end = rows[i].thing == thing ? behind(pointer, rows[i].path) : NULL;
         if (!end || *end) continue;
@@ -126,7 +115,7 @@ void gn_camera_make(const struct gn_camera_record *r, struct gn_camera *camera) 
 
 void gn_material_record_init(struct gn_material_record *record) {
     *record = (struct gn_material_record){.tint = {1, 1, 1}};
-    for (size_t i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++)
+    for (size_t i = 0; i < gn_material_property_count; i++)
         for (uint32_t k = 0; k < gn_material_properties[i].components; k++)
             ((float *)record)[gn_material_properties[i].first + k] =
                 gn_material_properties[i].fallback;
@@ -159,7 +148,7 @@ static float f0_of_ior(float ior) {
 
 static struct gn_material_record clamped(const struct gn_material_record *record) {
     struct gn_material_record r = *record;
-    for (size_t i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++) {
+    for (size_t i = 0; i < gn_material_property_count; i++) {
         const struct gn_property *p = &gn_material_properties[i];
         float *x = (float *)&r + p->first;
         for (uint32_t k = 0; k < p->components; k++) x[k] = clamp(x[k], p->least, p->most);

@@ -165,7 +165,7 @@ static void limit_textures(struct gn_gltf *g, const struct gn_at *at, struct gn_
 static void read_record(struct gn_gltf *g, const struct gn_at *at, struct gn_material_record *r,
                         float *thickness) {
     gn_material_record_init(r);
-    for (int i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++) {
+    for (size_t i = 0; i < gn_material_property_count; i++) {
         const struct gn_property *p = &gn_material_properties[i];
         float *to = (float *)r + p->first;
         if (p->components == 1)
