@@ -84,8 +84,7 @@ enum gn_shading {
     GN_SHADING_EMISSION, /* lit materials that emit; not where only light is added */
     GN_SHADING_AMBIENT,  /* lit materials; not where only light is added */
     GN_SHADING_LAYERS,   /* materials with that layer */
-    GN_SHADING_BEFORE_LAYERS = GN_SHADING_LAYERS - 1,
-#define GN_X(NAME, ...) GN_SHADING_##NAME,
+#define GN_X(NAME, ...) GN_SHADING_##NAME = GN_SHADING_LAYERS + GN_LAYER_##NAME,
     GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
 #undef GN_X
 };

@@ -4,13 +4,10 @@
 
 #include <string.h>
 
-static const char *const names[GN_MISSING_COUNT] = {
-#define GN_X(NAME, words, extension) [GN_MISSING_##NAME] = (words),
-    GN_MISSING(GN_X)
-#undef GN_X
-};
-static const char *const extensions[GN_MISSING_COUNT] = {
-#define GN_X(NAME, words, extension) [GN_MISSING_##NAME] = (extension),
+static const struct {
+    const char *words, *extension;
+} rows[GN_MISSING_COUNT] = {
+#define GN_X(NAME, words, extension) [GN_MISSING_##NAME] = {words, extension},
     GN_MISSING(GN_X)
 #undef GN_X
 };
@@ -18,7 +15,8 @@ static const char *const extensions[GN_MISSING_COUNT] = {
 void gn_missing_of_material(struct gn_gltf *g, const struct gn_at *material) {
     struct gn_at all = gn_at_any(material, "extensions");
     for (size_t i = 0; i < GN_MISSING_COUNT && json_is_object(all.json); i++)
-        if (extensions[i] && json_object_get(all.json, extensions[i])) g->is_missing[i] = true;
+        if (rows[i].extension && json_object_get(all.json, rows[i].extension))
+            g->is_missing[i] = true;
 }
 
 /* Whether a reader, or a row of the list, stands for the extension; or it changes no picture. */
@@ -26,7 +24,7 @@ static bool is_known(const char *name) {
     static const char *const others[] = {"KHR_draco_mesh_compression", "KHR_materials_volume",
                                          "KHR_xmp_json_ld", "KHR_xmp"};
     for (size_t i = 0; i < GN_MISSING_COUNT; i++)
-        if (extensions[i] && strcmp(extensions[i], name) == 0) return true;
+        if (rows[i].extension && strcmp(rows[i].extension, name) == 0) return true;
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (strcmp(others[i], name) == 0) return true;
     return gn_gltf_supports(name);
@@ -40,7 +38,7 @@ static void add_name(char *list, size_t size, const char *name) {
 bool gn_missing_list(struct gn_gltf *g) {
     char list[500] = "";
     for (size_t i = 0; i < GN_MISSING_COUNT; i++)
-        if (g->is_missing[i]) add_name(list, sizeof list, names[i]);
+        if (g->is_missing[i]) add_name(list, sizeof list, rows[i].words);
     const json_t *used = json_object_get(g->file.json, "extensionsUsed");
     for (size_t i = 0; i < json_array_size(used); i++) {
         const char *name = json_string_value(json_array_get(used, i));

@@ -96,8 +96,7 @@ static void read_property(struct gn_gltf *g, const struct gn_at *target, const c
  * a warning. */
 static void read_pointer(struct gn_gltf *g, const struct gn_at *target, struct target *out) {
     static const char nodes[] = "/nodes/";
-    struct gn_at extension = gn_at_object(g, target, "extensions.KHR_animation_pointer");
-    const char *pointer = gn_at_text(g, &extension, "pointer");
+    const char *pointer = gn_at_text(g, target, "extensions.KHR_animation_pointer.pointer");
     if (g->failed) return;
     const bool of_node = pointer && strncmp(pointer, nodes, sizeof nodes - 1) == 0;
     const char *digits = of_node ? pointer + sizeof nodes - 1 : "";

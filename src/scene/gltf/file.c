@@ -157,16 +157,12 @@ static const struct cure {
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 
-static bool has_properties(const char *extension) {
-    char start[128];
-    const int length = snprintf(start, sizeof start, "extensions.%s.", extension);
-    for (int i = 0; i < GN_MATERIAL_PROPERTY_COUNT && length < (int)sizeof start; i++)
-        if (strncmp(gn_material_properties[i].path, start, (size_t)length) == 0) return true;
-    return false;
-}
-
 bool gn_gltf_supports(const char *name) {
-    if (has_properties(name)) return true;
+    char extension[80];
+    for (size_t i = 0; i < gn_material_property_count; i++)
+        if (sscanf(gn_material_properties[i].path, "extensions.%79[^.]", extension) == 1 &&
+            strcmp(extension, name) == 0)
+            return true;
     for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
         if (strcmp(SUPPORTED[i], name) == 0) return true;
     return (strcmp(name, "EXT_meshopt_compression") == 0 ||
