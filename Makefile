@@ -16,46 +16,42 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-CHECKS := check-angle check-board check-board-arm64 check-deb check-service check-gpus check-gpiod2 check-modelviewer check-tangents
-.PHONY: all no-import tests sanitized completion dist deb run check $(CHECKS) gpus board-arm64 gpiod2 accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme options-page deps \
-        syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
+.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-tangents truth benchmark benchmark-scenes gallery contact-sheet \
+        lessons book readme options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
+#: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
+#: make run        install what is missing, build, show the default scene
+#: make check      before a commit: gcc, clang, ASan and UBSan, lint of what changed, quick tests
+#: make accept     what check leaves out: long tests, machines, GPUs, lint of all
+#: make full       the longest forms of all that, hours: once before a release
+#: make check-NAME what accept runs of a folder of tests, of a configuration or of one test (tests/table): check-angle,
+#:                 check-board, check-arm64, check-gpiod2, check-kms, check-test_cone; with GN_FULL=1 what full runs of it
+#: make check-service
+#:                 the packages as a service, in a machine with systemd; check-deb: the packages themselves
+#: make check-gpus every program on the compilers of GPUs that are not here, and its cost
+#: make check-modelviewer
+#:                 colours against model-viewer in Chromium, by npm, on the models of ../shared/assets
+#: make check-tangents
+#:                 tangents against the reference algorithm, by npm
+#: make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too
+#: make benchmark  the open benchmark (assets/benchmark): scenes, truths, the table of all techniques;
+#:                 make benchmark-scenes: the scenes only
+#: make readme     the table of techniques (src/shadow/README.md), measured
+#: make options-page
+#:                 the table of keys in src/options/README.md, from the table of options
+#: make gallery    one scene with every technique and the truth, into assets/gallery
+#: make contact-sheet
+#:                 the modes of the default scene, gone through by keys, as one picture
+#: make lessons    faults of shadows beside their cures, into build/lessons/index.html
+#: make book       eight scenes, each by its configuration in assets/book, into build/book.png
+#: make deps       install the packages that building, running and testing need (apt);
+#:                 with CROSS= those that building for it needs
+#: make lint       clang-tidy; make syntax: clang for its warnings; make format: clang-format, in place
+#: make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again
+#: make tests, man, compile_commands.json, clean
+#: CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1
 help:
-	@printf '%s\n' \
-	    'make            build/release/gnomon, gnomon-import, the default scene and assets/bench' \
-	    'make run        install what is missing, build, show the default scene' \
-	    'make check      before a commit: gcc, clang, ASan and UBSan, lint of what changed, quick tests' \
-	    'make accept     what check leaves out: long tests, machines, GPUs, lint of all' \
-	    'make full       the longest forms of all that, hours: once before a release' \
-	    'make check-angle' \
-	    '                strict OpenGL ES 3.0: ANGLE on SwiftShader, by npm; with GN_FULL=1 all of it' \
-	    'make check-board' \
-	    '                the real kernel in a virtual machine; with GN_FULL=1 all of it, and' \
-	    '                check-board-arm64: the arm64 kernel, and gnomon built for it' \
-	    'make check-gpus every program on the compilers of GPUs that are not here, and its cost' \
-	    'make check-gpiod2' \
-	    '                buttons with libgpiod 2, and the rest of Debian 13; with GN_FULL=1 its long form' \
-	    'make check-modelviewer' \
-    '                colours against model-viewer in Chromium, by npm, on the models of ../shared/assets' \
-    'make check-tangents' \
-    '                tangents against the reference algorithm, by npm' \
-    'make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too' \
-	    'make benchmark  the open benchmark (assets/benchmark): scenes, truths, the table of all techniques;' \
-	    '                make benchmark-scenes: the scenes only' \
-	    'make readme     the table of techniques (src/shadow/README.md), measured' \
-	    'make options-page' \
-	    '                the table of keys in src/options/README.md, from the table of options' \
-	    'make gallery    one scene with every technique and the truth, into assets/gallery' \
-	    'make contact-sheet' \
-	    '                the modes of the default scene, gone through by keys, as one picture' \
-	    'make lessons    faults of shadows beside their cures, into build/lessons/index.html' \
-	    'make book       eight scenes, each by its configuration in assets/book, into build/book.png' \
-	    'make deps       install the packages that building, running and testing need (apt);' \
-	    '                with CROSS= those that building for it needs' \
-	    'make lint       clang-tidy; make syntax: clang for its warnings; make format: clang-format, in place' \
-	    'make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again' \
-	    'make tests, man, compile_commands.json, clean' \
-	    'CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1'
+	@sed -n 's/^#: //p' Makefile
 clean:
 	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb assets/lessons assets/book/*.glb assets/benchmark/*.glb assets/benchmark/*.pfm
 deps:
@@ -70,32 +66,19 @@ dist:
 	@mkdir -p $(O)
 	git -c tar.umask=0022 archive --format=tar --prefix=gnomon-$(VERSION)/ HEAD | gzip -9n > $(DIST)
 
-DEPS_run := build run
-DEPS_check := build run test
-DEPS_check-angle := build run test
-DEPS_check-board := build run test board $(if $(GN_FULL),board-arm64)
-DEPS_check-board-arm64 := $(DEPS_check-board) board-arm64
-DEPS_check-gpus := build run gpus
-DEPS_check-gpiod2 := build run test board
-DEPS_check-modelviewer := build run test
-DEPS_check-tangents := build run test
-DEPS_check-deb := build deb deb-test
-DEPS_check-service := build deb deb-test test board
-DEPS_deb := build deb
-DEPS_accept := build run test board board-arm64 gpus
-DEPS_full := $(DEPS_accept)
-DEPS_truth := build run test
-DEPS_benchmark := build run test
-DEPS_benchmark-scenes := build run test
-DEPS_gallery := build run test
-DEPS_contact-sheet := build run test
-DEPS_lessons := build run
-DEPS_book := build run test
-DEPS_readme := build run test
-BOOT := $(if $(READY),,$(filter deb run check $(CHECKS) accept full truth benchmark benchmark-scenes gallery contact-sheet lessons book readme,$(GOALS)))
+# goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
+MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
+TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-tangents,$(filter check check-% accept full,$(GOALS)))
+IN_test     := $(TABLED) check-modelviewer check-tangents truth benchmark benchmark-scenes gallery contact-sheet book readme
+IN_board    := $(MACHINES)
+IN_board-arm64 := $(MACHINES)
+IN_gpus     := check-gpus accept full
+IN_deb      := deb check-deb check-service full
+IN_deb-test := check-deb check-service full
+BOOT := $(if $(READY),,$(filter run deb lessons check-deb check-gpus $(IN_test),$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
-	@sh board/deps.sh $(DEPS_$@)
+	@sh board/deps.sh build run $(foreach s,test board board-arm64 gpus deb deb-test,$(if $(filter $@,$(IN_$s)),$s))
 	@+$(SUB) $@
 $(filter-out $(BOOT) $(BARE),$(GOALS)):
 	@+$(SUB) $@
@@ -113,7 +96,7 @@ endif
 PKG     ?= pkg-config
 PKGS    := jansson libpng libturbojpeg inih zlib
 HEADERS := egl glesv2 cglm libdrm gbm
-NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests sanitized syntax $(CHECKS) truth benchmark benchmark-scenes gallery contact-sheet book readme,$(GOALS)),cmocka)
+NEEDED  := $(PKGS) $(HEADERS) $(if $(filter tests programs syntax $(IN_test),$(GOALS)),cmocka)
 MISSING := $(shell for p in $(NEEDED); do $(PKG) --exists $$p 2> /dev/null || echo $$p; done)
 $(if $(MISSING),$(error Not found by $(PKG): $(MISSING). Try: make deps$(if $(CROSS), CROSS=$(CROSS))))
 # FreeType draws the texts on the picture; without it they are in the font inside the program
@@ -203,8 +186,11 @@ KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
 COMPLETION := $(addprefix $(O)/completion/gnomon.,bash zsh fish)
 
 all: $(BIN) $(IMPORT) $(SCENES) man completion $(O)/gnomon.svg
-tests: $(BIN) $(IMPORT) $(SCENES) $(PROGS) $(B)/tests/firstflip.so $(B)/tests/keyboard $(B)/tests/touchscreen $(B)/tests/television $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(O)/host/make_book \
-       $(if $(ASSIMP),$(B)/tests/hostile_assimp.so)
+# what tests use: the sanitizers look at none of it but a library that gnomon-import loads
+HELPERS := $(if $(ASSIMP),$(B)/tests/hostile_assimp.so) $(if $(filter asan,$(CONFIG)),,$(filter %/tool_%,$(PROGS)) $(O)/host/make_truth $(O)/host/make_book \
+           $(addprefix $(B)/tests/,test_penumbra firstflip.so keyboard touchscreen television angle/libEGL.so.1))
+programs: $(BIN) $(IMPORT) $(SCENES) $(HELPERS) $(PROGRAMS)
+tests: programs $(PROGS)
 man: $(O)/gnomon.1 $(O)/gnomon.ini.5
 completion: $(COMPLETION)
 
@@ -283,7 +269,7 @@ HOST     = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$
            $(filter %.c,$^) $(HOST_LIBS) -lm
 ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
-MAN_C   := $(addprefix src/,options/buttons.c options/options.c options/settings.c options/table.c options/value.c \
+MAN_C   := $(addprefix src/,options/buttons.c options/kind_button.c options/section.c options/options.c options/settings.c options/table.c options/value.c \
            options/action.c options/binding.c options/command.c options/schedule.c options/viewer_keys.c cli/help.c core/arena.c core/err.c core/key.c core/text.c \
            frame/caps.c display/kms/modeline.c scene/limits.c core/memory.c shadow/moments.c shadow/technique.c)
 $(O)/host/embed: board/host/embed.c
@@ -321,106 +307,39 @@ $(O)/gnomon.svg: board/desktop/icon.sh
 	$(Q)sh $< > $@
 
 # ---- checks --------------------------------------------------------------------------------
-# programs FOLDER,SOURCES; kinds KIND..: the sources of its programs; quick TEST..: those that are not
-# left to accept
-programs = $(addprefix $(1)/tests/,$(filter-out tool_%,$(basename $(notdir $(2)))))
-kinds    = $(filter $(patsubst %,tests/%/%,$(1)),$(PROG_C))
-LATER   := $(shell awk '$$2 ~ /^[0-9]/ && / accept/ { print $$1 }' tests/timeouts)
-quick    = $(foreach t,$(1),$(if $(filter $(LATER),$(notdir $t)),,$t))
-later    = $(foreach t,$(1),$(if $(filter $(LATER),$(notdir $t)),$t))
-# machines with systemd need packages: check-service
-SYSTEMD_GUESTS := $(shell grep -l '^\# systemd: yes' tests/board/*.guest)
-BARE_GUESTS := $(filter-out $(SYSTEMD_GUESTS),$(sort $(wildcard tests/board/*.guest)))
-SCRIPTS  = $(sort $(wildcard tests/check_*.sh tests/*/check_*.sh))
-SANITIZED := unit plan fuzz kms
+# tests/table has what the goals run, and for which configurations; each is built as build_CONFIGURATION says.
+# For another Debian or processor nothing is built where its packages cannot be had: then its tests say so, and skip.
+BOARD_NEEDS := $(addprefix $(B)/,gnomon tests/firstflip.so tests/keyboard tests/touchscreen tests/television)
+GPUS_NEEDS  := $(addprefix $(B)/,gnomon tests/tool_gpus tests/ident.so)
+GPIOD2_NEEDS := $(BOARD_NEEDS) $(addprefix $(B)/tests/,test_gpio test_lines test_input test_gesture test_replay test_doctor_input)
+build_release = $(SUB) WERROR=1 CONFIG=release PROGRAMS='$(filter $(O)/release/tests/%,$(RUNS))' all programs
+build_asan    = $(SUB) WERROR=1 CONFIG=asan PROGRAMS='$(filter $(O)/asan/tests/%,$(RUNS))' programs
+build_service = $(build_release) && $(SUB) deb
+for_arm64     = { ! command -v aarch64-linux-gnu-gcc > /dev/null || ! root=$$($(1) tests/board/sysroot.sh arm64) || \
+                $(SUB) CROSS=aarch64-linux-gnu SYSROOT=$$root $(2); }
+build_arm64   = $(call for_arm64,,needs-board)
+build_gpus    = $(call for_arm64,FOR=gpus,WERROR=1 CONFIG=debug needs-gpus)
+build_gpiod2  = { ! root=$$(SUITE=trixie tests/board/sysroot.sh) || $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root needs-gpiod2; }
+needs-board: $(BOARD_NEEDS)
+needs-gpus: $(GPUS_NEEDS)
+needs-gpiod2: $(GPIOD2_NEEDS)
+
 run: all
 	$(BIN)
-sanitized: $(BIN) $(IMPORT) $(SCENES) $(call programs,$(B),$(call kinds,$(SANITIZED)))
-check:
-	+$(SUB) WERROR=1 CONFIG=release all tests
-	+$(SUB) WERROR=1 CONFIG=asan sanitized
-	+$(SUB) lint-changed
-	@tests/run.sh tests/layers.sh tests/format.sh BUILD=$(O)/release tests/cycles.sh \
-	    $(call quick,$(call programs,$(O)/release,$(PROG_C)) $(SCRIPTS)) \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(call kinds,$(SANITIZED)))
-check-angle: $(BIN) $(B)/tests/tool_angle $(B)/tests/test_penumbra $(B)/tests/angle/libEGL.so.1 $(O)/host/make_truth $(SCENES)
-	@tests/run.sh BUILD=$(B) tests/angle/check_angle.sh
-BOARD_NEEDS := gnomon tests/firstflip.so tests/keyboard tests/touchscreen tests/television tests/tool_compare
-check-board: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
-	@tests/run.sh BUILD=$(B) $(if $(GN_FULL),$(BARE_GUESTS),tests/board/smoke.guest)
-	$(if $(GN_FULL),+$(SUB) check-board-arm64)
-# Not built where the packages to build against cannot be had: the tests say so, and skip.
-ARM64_B := $(O)/aarch64-linux-gnu-$(CONFIG)
-board-arm64:
-	+@root=$$(tests/board/sysroot.sh arm64) || exit 0; $(SUB) CROSS=aarch64-linux-gnu SYSROOT=$$root \
-	    $(addprefix $(ARM64_B)/,$(filter-out %/tool_compare,$(BOARD_NEEDS)))
-check-board-arm64: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST) board-arm64
-	@ARCH=arm64 HOST_BUILD=$(B) tests/run.sh BUILD=$(ARM64_B) \
-	    $(if $(GN_FULL),$(addprefix tests/board/,lab.guest picture.guest monitor.guest card.guest)) tests/board/smoke.guest
-# For GPUs that are not here: debug, for its assertions; not built where Debian's packages cannot be
-# had: then the test says so.
-GPUS_B := $(O)/aarch64-linux-gnu-debug
-gpus:
-	+@command -v aarch64-linux-gnu-gcc > /dev/null && root=$$(FOR=gpus tests/board/sysroot.sh arm64) || exit 0; \
-	    $(SUB) WERROR=1 CROSS=aarch64-linux-gnu CONFIG=debug SYSROOT=$$root \
-	    $(addprefix $(GPUS_B)/,gnomon tests/tool_gpus tests/ident.so)
-check-gpus: gpus
-	@tests/run.sh BUILD=$(GPUS_B) tests/gpus/gpus.sh
-# Built for Debian 13 with this machine's compiler, and run on its libraries: here, and in a virtual machine.
-GPIOD2  := $(O)/$(shell $(CC) -dumpmachine)-$(CONFIG)
-GPIOD2_TESTS := $(addprefix $(GPIOD2)/tests/,test_gpio test_lines test_input test_gesture test_replay test_doctor_input)
-gpiod2:
-	+@root=$$(SUITE=trixie tests/board/sysroot.sh) || exit 0; $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root \
-	    $(GPIOD2)/gnomon $(GPIOD2_TESTS) $(addprefix $(GPIOD2)/tests/,firstflip.so keyboard touchscreen television)
-check-gpiod2: $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST) gpiod2
-	@SUITE=trixie HOST_BUILD=$(B) tests/run.sh BUILD=$(GPIOD2) tests/board/units.sh tests/board/buttons.guest
+lint_check  = $(SUB) lint-changed
+lint_accept = $(SUB) lint-brief
+lint_full   = $(SUB) lint && $(SUB) CC=clang WERROR=1 CONFIG=debug tests
+$(TABLED):
+	$(eval RUNS := $(shell O='$(O)' tests/goal.sh $(if $(filter check-%,$@),$(if $(GN_FULL)$(filter check-service,$@),full,accept) $(@:check-%=%),$@)))
+	+@$(foreach c,$(patsubst CONFIGURATION=%,%,$(sort $(filter CONFIGURATION=%,$(RUNS)))),$(build_$c) &&) $(or $(lint_$@),:)
+	@tests/run.sh $(RUNS)
+check-gpus:
+	+@$(build_gpus)
+	@tests/run.sh BUILD=$(O)/aarch64-linux-gnu-debug tests/gpus/gpus.sh
 check-modelviewer: $(BIN) $(B)/tests/tool_modelviewer $(B)/tests/tool_sheet $(O)/host/make_studio
 	GNOMON=$(BIN) BUILD=$(B) tests/modelviewer/modelviewer.sh
 check-tangents: $(B)/tests/tool_tangents
 	BUILD=$(B) tests/tangents/tangents.sh
-# What check leaves out: the long forms; what tests/timeouts leaves to accept, and the sanitizers
-# over the other kinds, in their quick forms; machines, and processors and GPUs that are not here.
-# (Mutants of scenes are many under the sanitizers alone: without, the same would pass again.)
-# What takes longest of these is left to full: under sanitizers the tests of pictures that tests/timeouts
-# names (SLOW), the long forms of LONGEST and of machines (more of the same: presses, replugs, frames, seconds
-# of rest), four fifths of the mutants, figures of bench that mean something, and four of the seven GPUs. All run at once, at the end:
-# machines wait a lot, and other tests have the processors then.
-PICTURES := $(filter tests/image/%,$(PROG_C))
-SLOW    := $(filter $(shell awk '$$2 ~ /^[0-9]/ { print "tests/image/" $$1 ".c" }' tests/timeouts),$(PICTURES))
-LONGEST := $(filter %/test_many_lights.c %/test_modes.c %/test_gesture_traces.c %/test_bombs.c %/test_storm.c %/test_large.c %/test_schedule.c %/test_truth.c,$(PROG_C))
-LONG     = $(shell grep -lE 'gn_shot_full|GN_FULL' $(1))
-accept:
-	+$(SUB) WERROR=1 CONFIG=release all tests
-	+$(SUB) WERROR=1 CONFIG=asan tests
-	+$(SUB) board-arm64
-	+$(SUB) gpiod2
-	+$(SUB) gpus
-	+$(SUB) lint-brief
-	@tests/run.sh BUILD=$(O)/release $(call later,$(SCRIPTS)) $(call later,$(call programs,$(O)/release,$(LONGEST))) tests/board/smoke.guest \
-	    BUILD=$(O)/asan $(call programs,$(O)/asan,$(filter-out $(SLOW),$(PICTURES))) tests/check_hostile.sh \
-	    GN_FULL=1 GN_MUTANTS=4000 $(filter %/test_malformed %/test_scene_mutations,$(call programs,$(O)/asan,$(PROG_C))) \
-	    BUILD=$(O)/release $(filter-out $(call programs,$(O)/release,$(LONGEST)),$(sort $(call programs,$(O)/release,$(call LONG,$(filter-out %/test_scene_mutations.c,$(PROG_C)))) \
-	    $(call later,$(call programs,$(O)/release,$(PROG_C))))) \
-	    $(filter-out $(call later,$(SCRIPTS)),$(call LONG,$(SCRIPTS))) \
-	    $(filter-out %/accept_bench.sh,$(sort $(wildcard tests/accept_*.sh tests/*/accept_*.sh))) \
-	    GN_FULL= tests/image/accept_bench.sh $(filter-out %/smoke.guest %/lab.guest,$(BARE_GUESTS)) \
-	    HOST_BUILD=$(O)/release BUILD=$(ARM64_B) ARCH=arm64 tests/board/smoke.guest ARCH= \
-	    BUILD=$(GPIOD2) SUITE=trixie tests/board/units.sh tests/board/buttons.guest SUITE= HOST_BUILD= \
-	    BUILD=$(GPUS_B) GPUS=pi4,g610,a618 tests/gpus/gpus.sh
-full:
-	+$(SUB) lint
-	+$(SUB) WERROR=1 CONFIG=release all tests
-	+$(SUB) WERROR=1 CONFIG=asan tests
-	+$(SUB) CC=clang WERROR=1 CONFIG=debug tests
-	@tests/run.sh BUILD=$(O)/asan $(call programs,$(O)/asan,$(SLOW)) \
-	    GN_FULL=1 $(call programs,$(O)/asan,$(filter tests/kms/% %/test_scene_mutations.c,$(PROG_C))) GN_FULL= \
-	    BUILD=$(O)/release GN_FULL=1 $(call programs,$(O)/release,$(LONGEST))
-	@tests/run.sh BUILD=$(O)/release GN_FULL=1 tests/image/accept_bench.sh
-	+$(SUB) GN_FULL=1 check-angle
-	+$(SUB) GN_FULL=1 check-board
-	+$(SUB) check-service
-	+$(SUB) GN_FULL=1 check-gpiod2
-	+$(SUB) GN_FULL=1 check-gpus
 # the table of keys in src/options/README.md
 options-page: $(O)/host/man
 	sh tests/options_page.sh $< > src/options/README.md.new && mv src/options/README.md.new src/options/README.md
@@ -485,9 +404,6 @@ install: all
 	    sh board/install.sh install
 deb: dist
 	@O='$(O)' VERSION='$(VERSION)' sh board/deb.sh
-# the packages as a service, in a machine with systemd
-check-service: deb $(addprefix $(B)/,$(BOARD_NEEDS)) $(SELFTEST)
-	@SUITE='$(SUITE)' tests/run.sh BUILD=$(B) $(SYSTEMD_GUESTS)
 check-deb: dist
 	@O='$(O)' VERSION='$(VERSION)' tests/board/packages.sh
 

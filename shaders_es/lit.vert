@@ -16,7 +16,7 @@ out vec3 v_normal;
 #ifdef WITH_SPREAD
 out float v_spread;
 #endif
-#define DECLARE_UV(v_uv, slot, second) out vec2 v_uv;
+#define DECLARE_UV(u_texture, v_uv, slot, second) out vec2 v_uv;
 EACH_TEXTURE(DECLARE_UV)
 #ifdef WITH_NORMAL_TEXTURE
 out vec3 v_tangent;
@@ -43,7 +43,7 @@ out vec3 v_irradiance_odd;
                                    SHADOW_SPREAD[slot] ? spread : 0.0) \
         : SHADOW_PROJECTED[slot] ? shadow_point_spot(slot, p, n, spread) : vec3(0.0);
 
-#define SET_UV(v_uv, slot, second) v_uv = slot_uv(slot, second);
+#define SET_UV(u_texture, v_uv, slot, second) v_uv = slot_uv(slot, second);
 
 void main() {
     vec3 p = position_ws();

@@ -9,25 +9,18 @@
 #include "core/stop.h"
 #include "options/args.h"
 
-static const struct {
-    gn_cli_command *run;
-    bool handles_signals; /* SIGTERM and SIGINT, by itself; else they end the process */
-} commands[] = {
-    [GN_COMMAND_AUTO] = {gn_cli_auto, true},        [GN_COMMAND_SHOW] = {gn_cli_show, true},
-    [GN_COMMAND_RENDER] = {gn_cli_render, false},   [GN_COMMAND_BENCH] = {gn_cli_bench, false},
-    [GN_COMMAND_INSPECT] = {gn_cli_inspect, false}, [GN_COMMAND_DOCTOR] = {gn_cli_doctor, false},
-    [GN_COMMAND_CTL] = {gn_cli_ctl, false},         [GN_COMMAND_COMPARE] = {gn_cli_compare, false},
-    [GN_COMMAND_SCORE] = {gn_cli_score, false},     [GN_COMMAND_LESSON] = {gn_cli_lesson, true},
-    [GN_COMMAND_BAKE] = {gn_cli_bake, false},       [GN_COMMAND_TAKE] = {gn_cli_take, false},
+static gn_cli_command *const commands[GN_COMMAND_COUNT] = {
+#define GN_COMMAND(ID, id, ...) [GN_COMMAND_##ID] = gn_cli_##id,
+#include "options/command_rows.h"
+#undef GN_COMMAND
 };
-_Static_assert(sizeof commands / sizeof commands[0] == GN_COMMAND_COUNT, "a row per command");
 
 static bool run(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {
     const enum gn_command command = options->settings->run.command;
     const bool prints = options->settings->run.version || options->settings->run.help ||
                         options->settings->run.check;
-    if (prints || !commands[command].handles_signals) gn_stop_end_process();
+    if (prints || !gn_commands[command].handles_signals) gn_stop_end_process();
     if (options->settings->run.version)
         puts("gnomon " GN_VERSION);
     else if (options->settings->run.help)
@@ -35,7 +28,7 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
     else if (options->settings->run.check)
         return gn_cli_check(options, warnings, err);
     else
-        return commands[command].run(options, warnings, err);
+        return commands[command](options, warnings, err);
     return true;
 }
 

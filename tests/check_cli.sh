@@ -16,7 +16,7 @@ expect() {
 
 expect 0 '' --version
 grep -q '^gnomon [0-9]' "$folder/out" || complain 'the version'
-for command in '' show render bench inspect doctor ctl compare score lesson take; do
+for command in '' $(commands_of); do
     # shellcheck disable=SC2086
     expect 0 '' $command --help
     grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"

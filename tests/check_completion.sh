@@ -22,7 +22,7 @@ offers() {
     [ "$got" = "$expected" ] || complain "gnomon $*: offers '$got', expected '$expected'"
 }
 
-for command in '' show render bench bake inspect doctor ctl compare score lesson take; do
+for command in '' $(commands_of); do
     options=$("$gnomon" $command --help | sed -nE 's/^(      |  -[a-zA-Z], )(--[a-z-]+).*/\2/p')
     offers "$options" $command --
     [ "$(wc -w <<< "$options")" -ge 4 ] || complain "options of $command"

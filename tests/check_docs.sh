@@ -20,7 +20,7 @@ done > "$folder/missing"
 [ ! -s "$folder/missing" ] || complain "$(cat "$folder/missing")"
 
 # ---- options and goals ---------------------------------------------------------------------------
-for command in '' show render bench bake inspect doctor ctl compare score lesson take; do
+for command in '' $(commands_of); do
     # shellcheck disable=SC2086
     "$gnomon" $command --help
 done > "$folder/help"
@@ -34,7 +34,7 @@ grep -ohE -- '--[a-z][a-z-]+' README.md assets/SCENES.md board/README.md src/opt
 [ ! -s "$folder/unknown" ] || complain "options that do not exist: $(tr '\n' ' ' < "$folder/unknown")"
 # shellcheck disable=SC2086
 grep -ohE '(`|^sudo |&& |^)make [a-z][a-z0-9/_-]+' $pages | sed 's/.*make //' | grep -v / | sort -u | while read -r goal; do
-    grep -qE "(^|^[a-z -]* |^CHECKS := .*)$goal( .*)?:|^CHECKS .*\b$goal\b|^[^#]*\b$goal:" Makefile || echo "$goal"
+    grep -qE "^([a-z -]* )?$goal( .*)?:|^TABLED .*\b$goal\b" Makefile || tests/goal.sh full "${goal#check-}" | grep -q tests/ || echo "$goal"
 done > "$folder/goals"
 [ ! -s "$folder/goals" ] || complain "goals of make that do not exist: $(tr '\n' ' ' < "$folder/goals")"
 

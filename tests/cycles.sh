@@ -12,7 +12,7 @@ done | xargs "${NM:-nm}" -A -P | awk -v objects="$objects/src/" '
 BEGIN {
     split("core image environment scene bake truth shadow caption frame gl display input take options stage kiosk cli", rooms, " ")
     for (i in rooms) rank[rooms[i]] = i
-    rank["import"] = 1.5 # a program of its own, on core
+    rank["import"] = 2.5 # a program of its own, on core and image
     rank["main.c"] = 99
 }
 function room_of(file) { sub(/\/.*/, "", file); return file }

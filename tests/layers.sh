@@ -15,7 +15,8 @@ BEGIN {
     may["truth"] = "core scene"
     may["frame"] = "core environment scene shadow caption"
     may["gl"] = "core environment scene shadow frame caption"
-    may["caption"] = may["display"] = may["input"] = may["import"] = may["take"] = "core" # import is a program of its own
+    may["caption"] = may["display"] = may["input"] = may["take"] = "core"
+    may["import"] = "core image" # a program of its own
     may["options"] = "core scene shadow frame display input take"
     may["stage"] = "core image environment scene shadow truth frame gl display input caption options"
     may["kiosk"] = may["stage"] " stage take"
@@ -29,9 +30,9 @@ BEGIN {
     foreign["ft2build.h"] = foreign["freetype/"] = "caption"
     foreign["ini.h"] = "options"
     foreign["jansson.h"] = "core scene bake kiosk cli import"
-    foreign["png.h"] = "image import"
-    foreign["turbojpeg.h"] = "image import"
-    foreign["webp/"] = foreign["zstd.h"] = foreign["zlib.h"] = "image"
+    foreign["png.h"] = foreign["turbojpeg.h"] = "image"
+    foreign["webp/"] = foreign["zstd.h"] = "image"
+    foreign["zlib.h"] = "image kiosk"
     foreign["meshoptimizer.h"] = "scene bake"
     foreign["assimp/"] = foreign["draco/"] = "import"
     foreign["cmocka.h"] = "none"

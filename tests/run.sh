@@ -1,15 +1,17 @@
 #!/bin/bash
 # run.sh [NAME=VALUE | PROGRAM]..: runs programs and scripts, JOBS (one more than processors, since
-# tests also wait) at a time, and counts. NAME=VALUE goes into the environment of those that follow (BUILD=build/asan).
-# tests/timeouts has the processor seconds that each may take, and which of them run alone, after
-# the others; the longest begin first. Virtual machines (.guest), of two processors each, run beside
+# tests also wait) at a time, and counts. NAME=VALUE goes into the environment of those that follow (BUILD=build/asan),
+# NAME= takes it out again; tests/goal.sh prints the arguments for a goal of make.
+# tests/table has the processor seconds that each may take; the longest begin first, and those with ALONE=1
+# run alone, after the others. Virtual machines (.guest), of two processors each, run beside
 # the others, one for every two processors. A line is printed when a test has ended, and with it the end
-# of its log if it failed. Exit status 77 is a skip, whose last line says why; the tests inside a
+# of its log if it failed. Exit status 77 is a skip, whose last line has the reason; the tests inside a
 # cmocka program count one by one. STRICT=1 makes a skip a failure. A script that succeeds with a
 # line "not applicable: why" has nothing to test on this kind of machine and is not counted.
 #   JOBS      tests at a time
-#   LIMIT     processor seconds that each test may take, whatever tests/timeouts says
+#   LIMIT     processor seconds that each test may take, whatever tests/table has
 #   GN_FULL=1 the long forms, of 1800 processor seconds at most
+#   DRY=1     prints what would run, in this order, and its limit
 set -u
 unset DISPLAY WAYLAND_DISPLAY # no test opens windows before the eyes of whoever runs it
 unset MESA_SHADER_CACHE_DISABLE
@@ -36,14 +38,15 @@ trap end_jobs INT TERM
 
 # ---- the plan: what runs, in which order -------------------------------------------------------
 settings=() # NAME=VALUE, in their order
-programs=() # "COUNT PROGRAM FULL": the first COUNT settings hold for it
-full=${GN_FULL:-}
+programs=() # "COUNT PROGRAM FULL ALONE": the first COUNT settings hold for it
+full=${GN_FULL:-0} alone=0
 
 for argument in "$@"; do
     case $argument in
     GN_FULL=*) full=${argument#*=} && settings+=("$argument") ;;
+    ALONE=*) alone=${argument#*=} ;;
     [A-Z]*=*) settings+=("$argument") ;;
-    *) programs+=("${#settings[@]} $argument $full") ;;
+    *) programs+=("${#settings[@]} $argument ${full:-0} ${alone:-0}") ;;
     esac
 done
 
@@ -51,7 +54,7 @@ done
 plan() {
     printf '%s\n' "${programs[@]}" |
         awk -v own_limit="${LIMIT:-}" '
-            FILENAME != "-" { if (!/^#/) { limit[$1] = $2; alone[$1] = / alone/ }; next }
+            FILENAME != "-" { sub(/.*\//, "", $1); limit[$1] = $5; next }
             {
                 name = $2
                 sub(/.*\//, "", name)
@@ -59,8 +62,8 @@ plan() {
                 most = $3 ? 1800 : own_limit ? own_limit : known ? known : 60
                 machine = name ~ /[.]guest$/
                 if (machine) most = 3600 # it has a limit of its own
-                print alone[name] ? "alone" : machine ? "machine" : "beside", most, $1, $2, known
-            }' tests/timeouts - |
+                print $4 ? "alone" : machine ? "machine" : "beside", most, $1, $2, known
+            }' tests/table - |
         sort -s -k 1,1r -k 5,5nr
 }
 
@@ -106,7 +109,9 @@ judge() {
 run() {
     local limit=$1 program=$3 result=$4 setting name log status cpu wall start=$SECONDS
     local passed=0 failed=0 skipped=0 failures=''
-    for setting in "${settings[@]:0:$2}"; do export "${setting?}"; done
+    for setting in "${settings[@]:0:$2}"; do
+        if [ -n "${setting#*=}" ]; then export "${setting?}"; else unset "${setting%%=*}"; fi
+    done
     BUILD=${BUILD:-build/release} name=$program
     case $program in *.sh | *.guest) [ "$2" -lt 2 ] || name="$program in $BUILD" ;; esac
     log=$BUILD/log/$(basename "$program").log
@@ -155,6 +160,12 @@ start() {
     [ "$1" != machine ] || { machine[$!]=1 && machines=$((machines + 1)); }
 }
 
+if [ -n "${DRY:-}" ]; then
+    plan | while read -r when limit count program _; do
+        echo "$when $limit s" "$(printf '%s\n' "${settings[@]:0:$count}" | tac | sort -u -t = -k 1,1 | grep -v '=$' | tr '\n' ' ')$program"
+    done
+    exit
+fi
 mapfile -t waiting < <([ ${#programs[@]} = 0 ] || plan | grep '^machine ')
 mapfile -t others < <([ ${#programs[@]} = 0 ] || plan | grep -v '^machine ')
 while :; do

@@ -8,6 +8,9 @@ trap 'rm -rf "$folder"' EXIT
 export XDG_CONFIG_HOME="$folder/none"
 bad=0
 
+# the commands of the program, as its help lists them
+commands_of() { "$gnomon" help | sed -n 's/^  gnomon \([a-z]*\) .*/\1/p' | grep -vx help; }
+
 complain() {
     echo "FAIL: $*"
     bad=1

@@ -8,8 +8,8 @@
 #include "options/command.h"
 #include "options/lesson.h"
 #include "options/options.h"
+#include "options/value.h"
 #include "scene/scene.h"
-#include "shadow/technique.h"
 
 enum { TEXT = 1200 };
 
@@ -50,15 +50,10 @@ static void add_word(char *out, const char *word, size_t length, const char *end
 /* The words that an option's value may be, a space between two; "": it is not one of a few. */
 static void list_values(const struct gn_option_row *row, char *out) {
     char limits[400] = "";
+    const char *word;
     out[0] = '\0';
     if (row->kind == GN_KIND_FLAG) add_word(out, "yes no", 6, "");
-    for (const struct gn_choice *c = row->choices; c && c->name; c++)
-        add_word(out, c->name, strlen(c->name), "");
-    for (int i = 0; row->kind == GN_KIND_TECHNIQUES && i < GN_TECHNIQUE_COUNT; i++)
-        add_word(out, gn_techniques[i].name, strlen(gn_techniques[i].name), "");
-    if (row->kind == GN_KIND_TECHNIQUES)
-        add_word(out, gn_techniques[GN_TECHNIQUE_TRUTH].name,
-                 strlen(gn_techniques[GN_TECHNIQUE_TRUTH].name), "");
+    for (int i = 0; (word = gn_value_word(row, i)); i++) add_word(out, word, strlen(word), "");
     for (int i = 0; row->kind == GN_KIND_CAPS && i < GN_CAP_COUNT; i++)
         add_word(out, gn_cap_names[i], strlen(gn_cap_names[i]), "");
     if (row->kind == GN_KIND_LIMIT) gn_scene_limits_list(limits, sizeof limits);
@@ -73,9 +68,9 @@ static void list_values(const struct gn_option_row *row, char *out) {
 /* The words after a command, a space between two; "": files. */
 static void list_words(int command, char *out) {
     out[0] = '\0';
-    for (int i = 0; command == GN_COMMAND_CTL && i < GN_CTL_COUNT; i++)
+    for (int i = 0; gn_commands[command].words == GN_WORDS_REQUEST && i < GN_CTL_COUNT; i++)
         add_word(out, gn_ctl_rows[i].name, strlen(gn_ctl_rows[i].name), "");
-    if (command != GN_COMMAND_LESSON) return;
+    if (gn_commands[command].words != GN_WORDS_LESSON) return;
     add_word(out, "list all", 8, "");
     for (size_t i = 0; i < sizeof lessons / sizeof *lessons; i++)
         add_word(out, lessons[i].name, strlen(lessons[i].name), "");
@@ -172,7 +167,7 @@ static const char bash_code[] =
     "    elif [[ $command == ctl && ${COMP_WORDS[COMP_CWORD - 2]} == set ]]; then\n"
     "        _gnomon_values \"--$previous\"\n"
     "    elif [[ $command == ctl ]] && ((COMP_CWORD > at + 1)); then\n"
-    "        [[ $previous == screenshot || $previous == scene ]] && words='' files=yes || return "
+    "        [[ @FILES@ ]] && words='' files=yes || return "
     "0\n"
     "    elif [[ ! $words ]]; then\n"
     "        files=yes\n"
@@ -184,8 +179,20 @@ static const char bash_code[] =
     "}\n"
     "complete -F _gnomon gnomon";
 
-/* `code` with @KEYS@, @COMMANDS@ (a pattern) and @WORDS@ filled in. */
-static void print_code(const char *code) {
+/* Whether a command of ctl takes a file. */
+static bool request_takes_file(const struct gn_ctl_row *row) {
+    return row->members[0] && strcmp(row->members[0], "file") == 0;
+}
+
+static void print_files(const char *request) {
+    for (int i = 0, more = 0; i < GN_CTL_COUNT; i++)
+        if (request_takes_file(&gn_ctl_rows[i]))
+            printf("%s%s == %s", more++ ? " || " : "", request, gn_ctl_rows[i].name);
+}
+
+/* `code` with @KEYS@, @COMMANDS@ (a pattern), @WORDS@ and @FILES@ (whether `request`, a variable,
+ * is a command of ctl that takes a file) filled in. */
+static void print_code(const char *code, const char *request) {
     char keys[TEXT], commands[TEXT];
     list_keys(keys);
     list_commands(commands);
@@ -193,6 +200,9 @@ static void print_code(const char *code) {
         if (strncmp(code, "@KEYS@", 6) == 0) {
             fputs(keys, stdout);
             code += 5;
+        } else if (strncmp(code, "@FILES@", 7) == 0) {
+            print_files(request);
+            code += 6;
         } else if (strncmp(code, "@WORDS@", 7) == 0) {
             fputs(commands, stdout);
             code += 6;
@@ -211,7 +221,7 @@ static void print_bash(void) {
     puts("# bash completion for gnomon, made from its table of options");
     print_bash_values();
     print_bash_options();
-    print_code(bash_code);
+    print_code(bash_code, "$previous");
 }
 
 /* ---- zsh ------------------------------------------------------------------------------------- */
@@ -262,7 +272,7 @@ static void print_zsh_command(int command) {
         if (gn_option_rows[i].commands & 1u << command) print_zsh_option(&gn_option_rows[i]);
     if (command == GN_COMMAND_AUTO)
         puts("        '1: :_gnomon_first'");
-    else if (command == GN_COMMAND_CTL)
+    else if (gn_commands[command].words == GN_WORDS_REQUEST)
         puts("        '*: :_gnomon_request'");
     else if (words[0])
         printf("        '1: :' '2:word:(%s)'\n", words);
@@ -307,7 +317,7 @@ static const char zsh_code[] =
     "        compadd -- @KEYS@\n"
     "    elif ((CURRENT == at + 3)) && [[ $request == set ]]; then\n"
     "        _gnomon_setting ${words[at+2]}\n"
-    "    elif [[ $request == screenshot || $request == scene ]]; then\n"
+    "    elif [[ @FILES@ ]]; then\n"
     "        _files\n"
     "    fi\n"
     "}\n"
@@ -328,7 +338,7 @@ static void print_zsh(void) {
     print_zsh_described("_gnomon_commands", false);
     print_zsh_described("_gnomon_requests", true);
     print_zsh_settings();
-    print_code(zsh_code);
+    print_code(zsh_code, "$request");
 }
 
 /* ---- fish ------------------------------------------------------------------------------------ */
@@ -364,9 +374,7 @@ static const char fish_code[] =
     "complete -c gnomon -n '__gnomon_in auto help' -f -a '@WORDS@'\n"
     "complete -c gnomon -n '__gnomon_in auto' -f -a 'help version'\n"
     "complete -c gnomon -n '__gnomon_in ctl doctor help version' -f\n"
-    "complete -c gnomon -n '__gnomon_request 1 get set' -f -a '@KEYS@'\n"
-    "complete -c gnomon -n '__gnomon_request 1 screenshot' -F\n"
-    "complete -c gnomon -n '__gnomon_request 1 scene' -F";
+    "complete -c gnomon -n '__gnomon_request 1 get set' -f -a '@KEYS@'";
 
 static void print_fish_option(const struct gn_option_row *row) {
     char values[TEXT];
@@ -390,7 +398,10 @@ static void print_fish_option(const struct gn_option_row *row) {
 
 static void print_fish(void) {
     char values[TEXT];
-    print_code(fish_code);
+    print_code(fish_code, "");
+    for (int i = 0; i < GN_CTL_COUNT; i++)
+        if (request_takes_file(&gn_ctl_rows[i]))
+            printf("complete -c gnomon -n '__gnomon_request 1 %s' -F\n", gn_ctl_rows[i].name);
     for (int i = 0; i < GN_CTL_COUNT; i++) {
         printf("complete -c gnomon -n '__gnomon_request 0' -f -a %s -d ", gn_ctl_rows[i].name);
         print_fish_text(gn_ctl_rows[i].what);

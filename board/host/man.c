@@ -4,32 +4,10 @@
 
 #include "cli/help.h"
 #include "config.h"
-#include "options/buttons.h"
 #include "options/command.h"
+#include "options/section.h"
 #include "options/viewer_keys.h"
 
-static const char *const sections[] = {"display", "scene", "render",  "camera",
-                                       "light",   "kiosk", "schedule"};
-enum { SECTIONS = sizeof sections / sizeof *sections };
-
-static const struct gn_help_entry section_texts[SECTIONS] = {
-    {"display", "The screen: card, connector, mode.."},
-    {"scene", "What is shown."},
-    {"render", "How it is drawn."},
-    {"camera",
-     "The place of the camera, whichever it is, and how far the mouse may take it. [render] "
-     "and modes take these keys, too, by the whole names of their options: camera_theta."},
-    {"light",
-     "The light that a scene without any gets. [render] and modes take these keys, too, by "
-     "the whole names of their options: light_azimuth."},
-    {"kiosk", "What gnomon show does by itself."},
-    {"schedule", "When the screen is on, by local time."},
-};
-static const char light_text[] =
-    "Settings of the lights of that name: their node's, or their own. They take the place of what "
-    "the scene says of them and of [render]; a mode, an option and gnomon ctl set beat them. "
-    "\"shadow = none\" always holds. intensity is in candela, of a directional light in lux, as in "
-    "the file; \"on = no\" switches a light off. Other keys are as in [render] and [light]:";
 static const struct gn_help_entry variables[] = {
     {"WAYLAND_DISPLAY, DISPLAY",
      "one of them set: gnomon without a command opens a window there, else it uses the screen"},
@@ -178,7 +156,8 @@ static void print_keys(void) {
 static void print_examples(void) {
     puts(".SH EXAMPLES\n.nf");
     for (int i = 0; i < GN_COMMAND_COUNT; i++)
-        for (int k = 0; k < GN_HELP_EXAMPLES; k++) print_line("", gn_help_examples[i][k], "\n");
+        for (int k = 0; k < GN_COMMAND_EXAMPLES; k++)
+            print_line("", gn_commands[i].examples[k], "\n");
     puts(".fi");
 }
 
@@ -209,26 +188,47 @@ static void print_gnomon(void) {
 
 /* ---- gnomon.ini(5) --------------------------------------------------------------------------- */
 
-static void print_key(const struct gn_option_row *row) {
-    char tag[120], text[600], key[64];
-    snprintf(tag, sizeof tag, "%s = %s", gn_option_key(row, key, sizeof key),
-             row->value ? row->value : "yes|no");
-    gn_help_phrase(row, text, sizeof text);
-    print_tagged(tag, text);
+/* What a key does; of sections of many the row has it all. */
+static const char *phrase_of(const struct gn_section_row *section, const struct gn_option_row *row,
+                             char *out, size_t size) {
+    if (section->rows) return row->help;
+    gn_help_phrase(row, out, size);
+    return out;
 }
 
-static void print_section(int section) {
-    char name[20];
-    snprintf(name, sizeof name, "[%s]", section_texts[section].name);
-    print_line(".SS ", name, "\n");
-    print_line("", section_texts[section].meaning, "\n");
-    for (int i = 0; i < GN_OPTION_COUNT; i++)
-        if (gn_option_rows[i].section && strcmp(gn_option_rows[i].section, sections[section]) == 0)
-            print_key(&gn_option_rows[i]);
+static const char *value_of(const struct gn_option_row *row) {
+    return row->value ? row->value : "yes|no";
+}
+
+/* Whether the manual describes the row under that section: not under those whose keys are of
+ * others. */
+static bool is_described(const struct gn_section_row *section, const struct gn_option_row *row) {
+    return section->rows || gn_option_is_of(row, section->title);
+}
+
+/* Keys that are of other sections, too, after a text that ends with a colon. */
+static bool lists_keys(const struct gn_section_row *section) {
+    return section->about[strlen(section->about) - 1] == ':';
+}
+
+static void print_section(const struct gn_section_row *section) {
+    char tag[120], text[600], key[64];
+    int count, more = 0;
+    const struct gn_option_row *rows = gn_section_options(section, &count);
+    snprintf(tag, sizeof tag, "[%s]", section->title);
+    print_line(".SS ", tag, "\n");
+    print_line("", section->about, "\n");
+    for (int i = 0; i < count; i++) {
+        gn_option_key(&rows[i], key, sizeof key);
+        if (lists_keys(section) && section->has(&rows[i])) print_line(more++ ? ", " : "", key, "");
+        if (!is_described(section, &rows[i])) continue;
+        snprintf(tag, sizeof tag, "%s = %s", key, value_of(&rows[i]));
+        print_tagged(tag, phrase_of(section, &rows[i], text, sizeof text));
+    }
+    if (more) puts(".");
 }
 
 static void print_ini(void) {
-    char tag[120];
     print_head("GNOMON.INI", 5, "gnomon.ini - configuration of gnomon(1)");
     puts(".SH DESCRIPTION");
     print_text(
@@ -242,24 +242,7 @@ static void print_ini(void) {
         "starts with the defaults; after a reload with a wrong file it keeps the last good "
         "configuration. The error is on the screen, on stderr and in gnomon ctl status.\n");
     puts(".SH SECTIONS");
-    for (int i = 0; i < SECTIONS; i++) print_section(i);
-    print_line(".SS ", "[mode \"NAME\"]", "\n");
-    puts("Any number of modes: keys of [scene], [render], [camera] and [light] that differ in it. "
-         "The first "
-         "one is "
-         "shown at the start; without any, each technique is a mode.");
-    print_line(".SS ", "[light \"NAME\"]", "\n");
-    print_line("", light_text, "\n");
-    for (int i = 0, more = 0; i < GN_OPTION_COUNT; i++)
-        if (gn_option_rows[i].of_light)
-            print_line(more++ ? ", " : "", gn_option_key(&gn_option_rows[i], tag, sizeof tag), "");
-    puts(".");
-    print_line(".SS ", "[button \"NAME\"]", "\n");
-    puts("Any number of buttons; they replace the default ones, which are in \\fBgnomon\\fP(1).");
-    for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++) {
-        snprintf(tag, sizeof tag, "%s = %s", gn_button_key(i)->name, gn_button_key(i)->value);
-        print_tagged(tag, gn_button_key(i)->help);
-    }
+    for (int i = 0; i < GN_SECTION_COUNT; i++) print_section(&gn_section_rows[i]);
     char actions[240], sentence[280];
     gn_action_list(actions, sizeof actions);
     snprintf(sentence, sizeof sentence, "\nACTION is one of %s.\n", actions);
@@ -282,31 +265,27 @@ static void print_row(const char *key, const char *value, const char *text) {
     puts(" |");
 }
 
-static void print_options(void) {
+static void print_keys_of(const struct gn_section_row *section) {
     char text[600], key[64];
-    for (int s = 0; s < SECTIONS; s++) {
-        printf("### [%s]\n\n%s\n\n| key | value | |\n|---|---|---|\n", sections[s],
-               section_texts[s].meaning);
-        for (int i = 0; i < GN_OPTION_COUNT; i++) {
-            const struct gn_option_row *row = &gn_option_rows[i];
-            if (!row->section || strcmp(row->section, sections[s]) != 0) continue;
-            gn_help_phrase(row, text, sizeof text);
-            print_row(gn_option_key(row, key, sizeof key), row->value ? row->value : "yes|no",
-                      text);
-        }
-        putchar('\n');
+    int count, more = 0;
+    const struct gn_option_row *rows = gn_section_options(section, &count);
+    printf("### [%s]\n\n%s", section->title, section->about);
+    for (int i = 0; lists_keys(section) && i < count; i++)
+        if (section->has(&rows[i]))
+            printf("%s `%s`", more++ ? "," : "", gn_option_key(&rows[i], key, sizeof key));
+    puts(more ? "." : "");
+    if (!section->has) puts("\n| key | value | |\n|---|---|---|");
+    for (int i = 0; i < count; i++)
+        if (is_described(section, &rows[i]))
+            print_row(gn_option_key(&rows[i], key, sizeof key), value_of(&rows[i]),
+                      phrase_of(section, &rows[i], text, sizeof text));
+}
+
+static void print_options(void) {
+    for (int i = 0; i < GN_SECTION_COUNT; i++) {
+        if (i > 0) putchar('\n');
+        print_keys_of(&gn_section_rows[i]);
     }
-    printf("### [mode \"NAME\"]\n\nAny key of [scene] and [render], and those of [camera] and "
-           "[light] as camera_theta, "
-           "light_azimuth.\n\n### [light \"NAME\"]\n\n%s",
-           light_text);
-    for (int i = 0, more = 0; i < GN_OPTION_COUNT; i++)
-        if (gn_option_rows[i].of_light)
-            printf("%s `%s`", more++ ? "," : "",
-                   gn_option_key(&gn_option_rows[i], key, sizeof key));
-    puts(".\n\n### [button \"NAME\"]\n\n| key | value | |\n|---|---|---|");
-    for (int i = 0; i < GN_BUTTON_KEY_COUNT; i++)
-        print_row(gn_button_key(i)->name, gn_button_key(i)->value, gn_button_key(i)->help);
 }
 
 int main(int argc, char **argv) {

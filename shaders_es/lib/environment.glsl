@@ -32,7 +32,6 @@ vec3 environment_slope(vec3 by) {
     return HARMONIC(1) * by.y + HARMONIC(2) * by.z + HARMONIC(3) * by.x;
 }
 
-#if defined WITH_ENVIRONMENT || defined WITH_COAT || defined WITH_TRANSMISSION
 // Share of white light from all sides that a surface reflects to an eye in front of it, by its reflectance at normal incidence; alpha:
 // roughness squared. What one reflection loses between microfacets (of GGX on average 0.01, 0.12, 0.34, 0.59 at roughness 1/4 .. 1)
 // comes back by further ones, each dimmed by f0: Fdez-Aguera, "A Multiple-Scattering Microfacet Model for Real-Time Image-Based
@@ -56,4 +55,3 @@ vec3 environment_along(vec3 normal, vec3 to_eye, float n_v, float roughness) {
     float toward = 2.0 * roughness * roughness;
     return environment_direction((2.0 * n_v + toward * toward) * normal - to_eye);
 }
-#endif

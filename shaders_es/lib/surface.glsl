@@ -8,42 +8,25 @@ flat in vec4 v_color;
 #endif
 in vec3 v_position;
 in vec3 v_normal;
-#define DECLARE_UV(v_uv, slot, second) in vec2 v_uv;
-EACH_TEXTURE(DECLARE_UV)
+#define DECLARE_TEXTURE(u_texture, v_uv, slot, second) \
+    in vec2 v_uv; \
+    uniform mediump sampler2D u_texture;
+EACH_TEXTURE(DECLARE_TEXTURE)
 flat in vec4 v_surface;  // roughness, metalness, occlusion strength, alpha cutoff
 flat in vec4 v_emissive; // radiance; w: 1 = casts
 #ifdef WITH_SHADOWS
 in vec3 v_shadow[SHADOW_COUNT]; // of slots with SHADOW_LINEAR or SHADOW_PROJECTED, from lit.vert
 #endif
 
-#ifdef WITH_BASE_TEXTURE
-uniform mediump sampler2D u_texture_base;
-#endif
-
-#ifdef WITH_TRANSMISSION_TEXTURE
-uniform mediump sampler2D u_texture_transmission;
-#endif
-// [0] rgb: reflectance at normal incidence of what is no metal; w: intensity of the light map. [1] x: clear coat; y: its roughness;
-// z: transmission
-uniform vec4 u_factors[2];
+uniform vec4 u_factors[1 + LAYER_COUNT]; // then FACTOR_.. of a layer each (src/scene/material.h)
+#define FACTOR_REFLECTANCE u_factors[0].rgb // at normal incidence, of what is no metal
+#define FACTOR_LIGHTMAP    u_factors[0].w   // intensity
 
 // Share of the light that is not reflected at the surface and that passes it, if it is no metal.
-float surface_transmission() {
-#ifdef WITH_TRANSMISSION_TEXTURE
-    return u_factors[1].z * texture(u_texture_transmission, v_uv_transmission).r;
-#else
-    return u_factors[1].z;
-#endif
-}
+float surface_transmission() { return FACTOR_TRANSMISSION * TEXEL_TRANSMISSION.r; }
 
 // Linear base colour and alpha.
-vec4 surface_base() {
-    vec4 base = v_color;
-#ifdef WITH_BASE_TEXTURE
-    base *= texture(u_texture_base, v_uv_base);
-#endif
-    return base;
-}
+vec4 surface_base() { return v_color * TEXEL_BASE; }
 
 // Alpha mask: discards fragments below the cutoff. BLENDED_REST: those above, which are in the picture. Derivatives in neighbouring fragments are undefined after this.
 // What transmits by a texture is cut by that: opaque where it transmits nothing.

@@ -35,18 +35,18 @@ static int format_of(const struct gn_bytes *bytes) {
 
 /* By the member of a material that names its texture. */
 static enum gn_scale_kind kind_of(const char *key) {
-    static const char *const colors[] = {"baseColorTexture",
-                                         "emissiveTexture",
-                                         "diffuseTexture",
-                                         "specularGlossinessTexture",
-                                         "specularColorTexture",
-                                         "sheenColorTexture",
-                                         "diffuseTransmissionColorTexture"};
-    const size_t length = strlen(key), normal = strlen("ormalTexture");
-    if (length >= normal && strcmp(key + length - normal, "ormalTexture") == 0)
-        return GN_SCALE_NORMALS;
-    for (size_t i = 0; i < sizeof colors / sizeof colors[0]; i++)
-        if (strcmp(key, colors[i]) == 0) return GN_SCALE_COLOR;
+    static const struct {
+        const char *end; /* of the name */
+        enum gn_scale_kind kind;
+    } kinds[] = {{"ormalTexture", GN_SCALE_NORMALS},
+                 {"ColorTexture", GN_SCALE_COLOR},
+                 {"emissiveTexture", GN_SCALE_COLOR},
+                 {"diffuseTexture", GN_SCALE_COLOR},
+                 {"specularGlossinessTexture", GN_SCALE_COLOR}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const size_t length = strlen(key), end = strlen(kinds[i].end);
+        if (length >= end && strcmp(key + length - end, kinds[i].end) == 0) return kinds[i].kind;
+    }
     return GN_SCALE_DATA;
 }
 

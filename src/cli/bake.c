@@ -119,12 +119,11 @@ static bool check_out(const char *out, struct gn_err *err) {
 
 static bool read_source(struct bake *b, const char *path, struct gn_warnings *warnings,
                         struct gn_err *err) {
-    const uint64_t file_mb = gn_scene_limits_or_default(&b->limits).file_mb;
     struct stat info;
     if (stat(path, &info) == 0) b->before.file_bytes = (uint64_t)info.st_size;
     if (gn_import_wants(path) || gn_import_wants_refused(path, &b->limits))
         return gn_import_convert(path, &b->limits, &b->source, warnings, err);
-    return gn_file_read(path, (size_t)file_mb << 20, &b->source, err);
+    return gn_file_read(path, (size_t)b->limits.file_mb << 20, &b->source, err);
 }
 
 static bool bake(struct bake *b, struct gn_warnings *warnings, struct gn_err *err) {
@@ -138,7 +137,7 @@ static bool bake(struct bake *b, struct gn_warnings *warnings, struct gn_err *er
                                       .share = s->run.simplify,
                                       .texture_limit_px = b->texture_limit_px};
     struct gn_warnings again = {0};
-    if (!gn_stage_limits(s, &b->limits, err)) return false;
+    b->limits = gn_stage_limits(s);
     b->limits.floor.kind = GN_FLOOR_NONE;
     b->limits.texture_px = 0;
     if (!read_source(b, s->scene.path, warnings, err) ||

@@ -10,11 +10,11 @@
 #include "cli/bench_move.h"
 #include "cli/bench_report.h"
 #include "cli/commands.h"
-#include "cli/driver_cache.h"
 #include "cli/memory.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "image/write.h"
+#include "stage/driver_cache.h"
 #include "stage/stage.h"
 
 enum { WARM_UP = 10, BLOCK = 6, FRAMES_DEFAULT = 60, FPS = 60, MS_NS = 1000000, RENDERER = 96 };
@@ -47,10 +47,11 @@ struct bench {
 static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *e, uint32_t frame,
                                            struct gn_err *err) {
     struct gn_stage *stage = &b->stage;
-    stage->frame_opts = e->opts;
-    gn_stage_pose(stage, b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS);
+    stage->shown.opts = e->opts;
+    gn_view_pose(&stage->shown, b->settings,
+                 b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS);
     gn_bench_move_step(&b->move, &stage->pose, frame);
-    return gn_stage_plan(stage, b->warnings, err);
+    return gn_view_plan(&stage->shown, stage->gl, b->warnings, err);
 }
 
 static bool draw_frame(struct bench *b, const struct entry *e, uint32_t frame, struct gn_err *err) {
@@ -116,11 +117,11 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
         const struct gn_shadow_view *view = &plan->shadows[i];
         gn_bench_add_name(run->map_format, view->moments ? gn_moments[view->moments].name
                                                          : gn_encodings[view->encoding].name);
-        if (!e->opts.shadow.technique_given)
+        if (!GN_LIGHT_HAS(&e->opts.shadow.any, technique))
             gn_bench_add_name(run->technique, gn_techniques[view->technique].name);
     }
-    if (e->opts.shadow.technique_given)
-        gn_bench_add_name(run->technique, gn_techniques[e->opts.shadow.technique].name);
+    if (GN_LIGHT_HAS(&e->opts.shadow.any, technique))
+        gn_bench_add_name(run->technique, gn_techniques[e->opts.shadow.any.technique].name);
     if (!run->technique[0]) gn_bench_add_name(run->technique, "none");
     if (!run->map_format[0]) gn_bench_add_name(run->map_format, "none");
     run->output = b->settings->render.output == GN_PICTURE_LINEAR ? "linear" : "srgb";
@@ -153,9 +154,8 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
     b->report->runs = gn_xalloc(b->report->run_count, sizeof *b->report->runs);
     for (uint32_t i = 0; i < b->report->run_count; i++) {
         struct entry *e = &b->entries[i];
-        e->opts = b->stage.frame_opts;
-        e->opts.shadow.technique_given = given;
-        e->opts.shadow.technique = given ? (enum gn_technique)list->items[i] : GN_TECHNIQUE_NONE;
+        e->opts = b->stage.shown.opts;
+        if (given) GN_LIGHT_SET(&e->opts.shadow.any, technique, (enum gn_technique)list->items[i]);
         e->run = &b->report->runs[i];
         e->ms = gn_xalloc(b->frames, sizeof *e->ms);
     }
@@ -164,7 +164,7 @@ static bool start_bench(struct bench *b, struct gn_err *err) {
     const struct gn_size size = o->render.size;
     const uint32_t msaa =
         gn_stage_msaa(&b->stage, (uint32_t)size.width_px, (uint32_t)size.height_px, false);
-    for (uint32_t i = 0; i < b->report->run_count; i++) b->entries[i].opts.msaa = msaa;
+    for (uint32_t i = 0; i < b->report->run_count; i++) b->entries[i].opts.output.msaa = msaa;
     uint8_t *rgba = gn_picture_alloc(
         (size_t)o->render.size.width_px * (size_t)o->render.size.height_px, 4, err);
     bool ok =

@@ -11,11 +11,12 @@
 #include "kiosk/control/listen.h"
 #include "options/args.h"
 #include "options/binding.h"
+#include "options/section.h"
 #include "options/value.h"
 #include "stage/lights.h"
 #include "stage/stage.h"
 
-enum { SCENES_MAX = GN_SCENES_MAX + GN_MODES_MAX };
+enum { SCENES_MAX = GN_SCENES_MAX + GN_SECTIONS_MAX };
 
 struct check {
     struct gn_errors *errors;
@@ -52,8 +53,9 @@ static bool check_look(struct check *c, const struct gn_settings *settings, cons
     struct gn_stage_look look;
     const struct gn_scene *scene = scene_of(c, settings, path, err);
     if (!scene || !gn_stage_look_build(&look, settings, scene, c->warnings, err)) return false;
-    const struct gn_technique_row *technique = &gn_techniques[look.frame_opts.shadow.technique];
-    if (!look.frame_opts.shadow.technique_given || !technique->on_plane) return true;
+    const struct gn_light_opts *any = &look.frame_opts.shadow.any;
+    const struct gn_technique_row *technique = &gn_techniques[any->technique];
+    if (!GN_LIGHT_HAS(any, technique) || !technique->on_plane) return true;
     for (uint32_t i = 0; i < scene->item_count; i++)
         if (scene->items[i].plane && scene->items[i].receives) return true;
     return gn_fail(err, "%s: %s needs a plane, and nothing in %s is one; gnomon_plane names it",
@@ -156,15 +158,11 @@ static void check_names(struct check *c, const struct gn_settings *s, struct gn_
 /* ---- what a kiosk makes of it
  * -------------------------------------------------------------------------- */
 
-/* section: as gn_option_find_key() has it. */
-static void print_setting(const char *section, const struct gn_option_row *row, const void *value,
-                          int count) {
-    const struct gn_option_row whole = {.name = row->name};
+static void print_setting(const struct gn_section_row *section, const struct gn_option_row *row,
+                          const void *value, int count) {
     char key[64], text[1024];
     gn_value_text(row, value, text, sizeof text);
-    gn_option_key(row, key, sizeof key);
-    if (gn_option_find_key(section, key) != row) gn_option_key(&whole, key, sizeof key);
-    printf("%s%s = %s", count ? ", " : "", key, text);
+    printf("%s%s = %s", count ? ", " : "", gn_section_key(section, row, key, sizeof key), text);
 }
 
 static void print_buttons(const struct gn_options *o) {
@@ -197,35 +195,34 @@ static void print_buttons(const struct gn_options *o) {
 }
 
 static void print_check(const struct check *c, const struct gn_options *o) {
-    static const char *const sections[] = {"display", "scene", "render",  "camera",
-                                           "light",   "kiosk", "schedule"};
+    const struct gn_section_row *section = gn_section_rows;
     printf("%s is valid: %d mode%s, %d button%s, %d scene%s\n", o->config_path, o->mode_count,
            o->mode_count == 1 ? "" : "s", o->buttons ? o->buttons->count : 0,
            o->buttons && o->buttons->count == 1 ? "" : "s", c->scene_count,
            c->scene_count == 1 ? "" : "s");
-    for (size_t s = 0; s < sizeof sections / sizeof sections[0]; s++) {
+    for (; !gn_section_is_many(section); section++) {
         int count = 0;
         for (int i = 0; i < GN_OPTION_COUNT; i++) {
             const struct gn_option_row *row = &gn_option_rows[i];
-            if (!row->section || strcmp(row->section, sections[s]) != 0 ||
+            if (!gn_option_is_of(row, section->title) ||
                 o->settings->source[i] == GN_SOURCE_DEFAULT)
                 continue;
-            if (count == 0) printf("[%s] ", sections[s]);
-            print_setting(sections[s], row, gn_settings_value(o->settings, row), count++);
+            if (count == 0) printf("[%s] ", section->title);
+            print_setting(section, row, gn_settings_value(o->settings, row), count++);
         }
         if (count) putchar('\n');
     }
     if (o->mode_count == 0) puts("modes: none in the file; one per technique");
     for (int i = 0; i < o->mode_count; i++) {
-        const struct gn_mode *mode = &o->modes[i];
+        const struct gn_section *mode = &o->modes[i];
         printf("mode \"%s\": ", mode->name);
         int count = 0;
         for (const struct gn_override *set = mode->first; set; set = set->next)
-            print_setting(NULL, set->row, set->value, count++);
+            print_setting(gn_section_find("mode", true), set->row, set->value, count++);
         puts(count ? "" : "no settings of its own");
     }
     for (int i = 0; i < o->settings->light_count; i++) {
-        const struct gn_light_section *light = &o->settings->lights[i];
+        const struct gn_section *light = &o->settings->lights[i];
         char text[400];
         gn_stage_print_light(o->settings, light, text, sizeof text);
         printf("light \"%s\": %s\n", light->name, text[0] ? text : "no settings of its own");
@@ -254,7 +251,7 @@ bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings
     struct gn_options again;
     if (gn_args_parse(&again, options->argc, options->argv, NULL, err)) {
         gn_options_run_as(&again, GN_COMMAND_RENDER); /* a missing camera or clip is an error */
-        note(&c, gn_stage_limits(again.settings, &c.limits, err), err);
+        c.limits = gn_stage_limits(again.settings);
         for (int i = 0; i <= again.mode_count; i++) {
             const struct gn_settings *settings = i ? &again.all[i] : again.settings;
             check_names(&c, settings, err);

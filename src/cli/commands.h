@@ -9,9 +9,10 @@
 typedef bool gn_cli_command(const struct gn_options *options, struct gn_warnings *warnings,
                             struct gn_err *err);
 
-gn_cli_command gn_cli_auto, gn_cli_show, gn_cli_render, gn_cli_bench, gn_cli_inspect, gn_cli_doctor;
-gn_cli_command gn_cli_ctl, gn_cli_compare, gn_cli_score, gn_cli_lesson, gn_cli_bake, gn_cli_take,
-    gn_cli_check; /* check: `show --check FILE` */
+#define GN_COMMAND(ID, id, ...) gn_cli_command gn_cli_##id;
+#include "options/command_rows.h"
+#undef GN_COMMAND
+gn_cli_command gn_cli_check; /* `show --check FILE` */
 
 /* Shows it in a window or, without a desktop, full screen, if --backend allows it. *shown is false
  * where there is neither. */

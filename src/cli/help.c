@@ -2,8 +2,11 @@
 
 #include <string.h>
 
+#include "core/text.h"
 #include "options/binding.h"
 #include "options/command.h"
+#include "options/section.h"
+#include "options/value.h"
 #include "options/viewer_keys.h"
 #include "scene/scene.h"
 #include "shadow/technique.h"
@@ -21,53 +24,29 @@ const struct gn_help_entry gn_help_exits[] = {
     {0},
 };
 
-const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES] = {
-    [GN_COMMAND_AUTO] = {"gnomon scene.glb", "gnomon --shadow cone --turntable 6 scene.glb"},
-    [GN_COMMAND_SHOW] = {"gnomon show -c kiosk.ini", "gnomon show --check kiosk.ini"},
-    [GN_COMMAND_RENDER] = {"gnomon render scene.glb -o picture.png --size 1920x1080 --msaa 4",
-                           "gnomon render scene.glb -o frame-%04d.png --frames 100 --fps 25"},
-    [GN_COMMAND_BENCH] = {"gnomon bench scene.glb --shadow pcf,cone,pcss",
-                          "gnomon bench scene.glb --frames 200 --json"},
-    [GN_COMMAND_INSPECT] = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --json"},
-    [GN_COMMAND_DOCTOR] = {"gnomon doctor", "gnomon doctor --self-test"},
-    [GN_COMMAND_CTL] = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
-    [GN_COMMAND_COMPARE] = {"gnomon compare a.png b.png --diff difference.png",
-                            "gnomon compare a.pfm truth.pfm --json"},
-    [GN_COMMAND_SCORE] = {"gnomon score picture.pfm --truth field-sun-00",
-                          "gnomon score build/benchmark/pcf --csv"},
-    [GN_COMMAND_LESSON] = {"gnomon lesson position", "gnomon lesson all -o lessons"},
-    [GN_COMMAND_BAKE] = {"gnomon bake scene.glb -o board.glb",
-                         "gnomon bake scan.obj -o board.glb --simplify 0.25 --texture-limit 1024"},
-    [GN_COMMAND_TAKE] = {"gnomon take /media/stick", "gnomon take --rollback"},
-};
-
 /* ---- texts --------------------------------------------------------------------------------- */
 
 void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
     char limits[400];
-    size_t used = (size_t)snprintf(out, size, "%s", row->help);
-    for (const struct gn_choice *c = row->choices; c && c->name && used < size; c++)
-        used += (size_t)snprintf(out + used, size - used, "%s%s", c == row->choices ? ": " : ", ",
-                                 c->name);
-    for (int i = 0; row->kind == GN_KIND_TECHNIQUES && i < GN_TECHNIQUE_COUNT && used < size; i++)
-        used += (size_t)snprintf(out + used, size - used, "%s%s", i ? ", " : ": ",
-                                 gn_techniques[i].name);
-    if (row->kind == GN_KIND_TECHNIQUES && used < size)
-        used += (size_t)snprintf(out + used, size - used, "; for render also %s",
-                                 gn_techniques[GN_TECHNIQUE_TRUTH].name);
-    if (row->kind == GN_KIND_LIMIT && used < size) {
+    const char *word, *fallback = row->fallback, *unit = row->unit;
+    snprintf(out, size, "%s", row->help);
+    for (int i = 0; (word = gn_value_word(row, i)); i++)
+        gn_text_add(out, size, "%s%s",
+                    i == 0 ? ": "
+                    : row->kind == GN_KIND_TECHNIQUES && i == GN_TECHNIQUE_TRUTH
+                        ? "; for render also "
+                        : ", ",
+                    word);
+    if (row->kind == GN_KIND_LIMIT) {
         gn_scene_limits_list(limits, sizeof limits);
-        used += (size_t)snprintf(out + used, size - used, ": %s", limits);
+        gn_text_add(out, size, ": %s", limits);
     }
     /* "(default 1280x720 pixels)", "(in degrees)", "(in stops; default auto)" */
-    const char *fallback = row->fallback, *unit = row->unit;
-    if (used >= size || !(fallback || unit)) return;
     if (fallback && (!unit || strchr("-0123456789", fallback[0])))
-        snprintf(out + used, size - used, " (default %s%s%s)", fallback, unit ? " " : "",
-                 unit ? unit : "");
-    else
-        snprintf(out + used, size - used, " (in %s%s%s)", unit, fallback ? "; default " : "",
-                 fallback ? fallback : "");
+        gn_text_add(out, size, " (default %s%s%s)", fallback, unit ? " " : "", unit ? unit : "");
+    else if (fallback || unit)
+        gn_text_add(out, size, " (in %s%s%s)", unit, fallback ? "; default " : "",
+                    fallback ? fallback : "");
 }
 
 bool gn_help_default_button(int index, char *keys, size_t size, const char **action) {
@@ -105,36 +84,29 @@ static void print_entry(FILE *to, const char *name, const char *meaning) {
 
 /* ---- groups of options: the sections of the INI file, [render] in two ------------------------ */
 
-static const struct group {
-    const char *heading, *section;
-    bool shadows;
-} groups[] = {
-    {"scene, [scene] in kiosk.ini", "scene", false},
-    {"picture, [render] in kiosk.ini", "render", false},
-    {"shadows, [render] in kiosk.ini", "render", true},
-    {"camera, [camera] in kiosk.ini", "camera", false},
-    {"light of a scene without any, [light] in kiosk.ini", "light", false},
-    {"display, [display] in kiosk.ini", "display", false},
-    {"kiosk, [kiosk] in kiosk.ini", "kiosk", false},
-    {"hours, [schedule] in kiosk.ini", "schedule", false},
-    {"other options", NULL, false},
-};
+static bool is_of_shadows(const struct gn_option_row *row) {
+    static const char *const names[] = {"shadow", "map",      "planar",    "taps",
+                                        "filter", "cascades", "cast-faces"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strncmp(row->name, names[i], strlen(names[i])) == 0) return true;
+    return false;
+}
 
-static void print_group(FILE *to, const struct group *group, enum gn_command command) {
-    static const char *const shadows[] = {"shadow", "map",      "planar",    "taps",
-                                          "filter", "cascades", "cast-faces"};
+/* section NULL: options that the INI file does not have */
+static void print_group(FILE *to, const struct gn_section_row *section, bool shadows,
+                        enum gn_command command) {
     bool begun = false;
     for (int i = 0; i < GN_OPTION_COUNT; i++) {
         const struct gn_option_row *row = &gn_option_rows[i];
-        bool of_shadows = false;
-        for (size_t k = 0; k < sizeof shadows / sizeof *shadows; k++)
-            of_shadows |= strncmp(row->name, shadows[k], strlen(shadows[k])) == 0;
         const bool in_group =
-            row->section && group->section
-                ? strcmp(row->section, group->section) == 0 && of_shadows == group->shadows
-                : row->section == group->section;
+            section ? gn_option_is_of(row, section->title) && is_of_shadows(row) == shadows
+                    : !row->section;
         if (!(row->commands & 1u << command) || !in_group) continue;
-        if (!begun) fprintf(to, "\n%s:\n", group->heading);
+        if (!begun && section)
+            fprintf(to, "\n%s, [%s] in kiosk.ini:\n", shadows ? "shadows" : section->heading,
+                    section->title);
+        else if (!begun)
+            fputs("\nother options:\n", to);
         begun = true;
         char text[500], name[80], letter[8] = "    ";
         if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
@@ -143,6 +115,14 @@ static void print_group(FILE *to, const struct group *group, enum gn_command com
         gn_help_phrase(row, text, sizeof text);
         print_entry(to, name, text);
     }
+}
+
+static void print_groups(FILE *to, enum gn_command command) {
+    for (int place = 1; place <= GN_SECTION_COUNT; place++)
+        for (int i = 0; i < GN_SECTION_COUNT; i++)
+            for (int shadows = 0; shadows < 2 && gn_section_rows[i].place == place; shadows++)
+                print_group(to, &gn_section_rows[i], shadows, command);
+    print_group(to, NULL, false, command);
 }
 
 /* ---- --help -------------------------------------------------------------------------------- */
@@ -165,15 +145,15 @@ void gn_help_print(FILE *to, enum gn_command command) {
               to);
     }
     fputs("\nexamples:\n", to);
-    for (int i = 0; i < GN_HELP_EXAMPLES; i++) fprintf(to, "  %s\n", gn_help_examples[command][i]);
+    for (int i = 0; i < GN_COMMAND_EXAMPLES; i++)
+        fprintf(to, "  %s\n", gn_commands[command].examples[i]);
     if (command == GN_COMMAND_CTL) fputs("\ncommands:\n", to);
     for (int i = 0; command == GN_COMMAND_CTL && i < GN_CTL_COUNT; i++) {
         const struct gn_ctl_row *row = &gn_ctl_rows[i];
         snprintf(tag, sizeof tag, "%s%s%s", row->name, row->words[0] ? " " : "", row->words);
         print_entry(to, tag, row->what);
     }
-    for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)
-        print_group(to, &groups[i], command);
+    print_groups(to, command);
     if (command != GN_COMMAND_AUTO && command != GN_COMMAND_SHOW) return;
     const char *action;
     fputs("\nin a window:\n", to);

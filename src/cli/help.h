@@ -13,9 +13,6 @@ void gn_help_print(FILE *to, enum gn_command command);
 /* What an option does, its choices and its default: "antialiasing: 0, 2, 4 (default 0 samples)". */
 void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size);
 
-enum { GN_HELP_EXAMPLES = 2 };
-extern const char *const gn_help_examples[GN_COMMAND_COUNT][GN_HELP_EXAMPLES];
-
 struct gn_help_entry {
     const char *name, *meaning;
 };

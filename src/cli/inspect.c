@@ -10,12 +10,7 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
                     struct gn_err *err) {
     struct gn_scene *scene = gn_stage_scene(options->settings, warnings, err);
     if (!scene) return false;
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(options->settings, &limits, err)) {
-        gn_scene_destroy(scene);
-        return false;
-    }
-    limits = gn_scene_limits_or_default(&limits);
+    const struct gn_scene_limits limits = gn_stage_limits(options->settings);
     struct gn_inspection in;
     struct gn_frame_shadow_opts unused = {0};
     gn_stage_set_lights(&unused, options->settings, scene, warnings); /* for its warnings */

@@ -9,9 +9,8 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
     *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
-    const struct gn_frame_opts opts = {.width_px = GN_INSPECT_WIDTH_PX,
-                                       .height_px = GN_INSPECT_HEIGHT_PX,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
+    const struct gn_frame_opts opts = {.output.width_px = GN_INSPECT_WIDTH_PX,
+                                       .output.height_px = GN_INSPECT_HEIGHT_PX,
                                        .shadow.triangles = triangles};
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);

@@ -97,8 +97,8 @@ static bool write_picture(const struct desk *desk, const char *what, bool srgb,
 
 static bool write_color(struct desk *desk, const char *what, struct gn_warnings *warnings,
                         struct gn_err *err) {
-    desk->stage.frame_opts.debug.aov = GN_AOV_COLOR;
-    return gn_stage_draw(&desk->stage, 0, warnings, err) &&
+    desk->stage.shown.opts.debug.aov = GN_AOV_COLOR;
+    return gn_view_draw(&desk->stage.shown, &desk->stage, 0, warnings, err) &&
            gn_gl_read_rgba8(desk->stage.gl, desk->rgba, err) &&
            write_picture(desk, what, true, err);
 }
@@ -117,8 +117,8 @@ static bool choose_look(struct desk *desk, struct gn_warnings *warnings, struct 
     struct gn_stage_look look;
     if (!gn_stage_look_build(&look, &desk->settings, desk->stage.scene, warnings, err))
         return false;
-    desk->stage.frame_opts = look.frame_opts;
-    desk->stage.frame_opts.tone = GN_TONE_NONE; /* figures and pictures are of the shadow alone */
+    desk->stage.shown.opts = look.frame_opts;
+    desk->stage.shown.opts.tone = GN_TONE_NONE; /* figures and pictures are of the shadow alone */
     return true;
 }
 
@@ -126,8 +126,8 @@ static bool draw_step(struct desk *desk, int step, double *figures, struct gn_wa
                       struct gn_err *err) {
     char what[24];
     if (!choose_look(desk, warnings, err)) return false;
-    desk->stage.frame_opts.debug.aov = GN_AOV_VISIBILITY;
-    const struct gn_plan *plan = gn_stage_draw(&desk->stage, 0, warnings, err);
+    desk->stage.shown.opts.debug.aov = GN_AOV_VISIBILITY;
+    const struct gn_plan *plan = gn_view_draw(&desk->stage.shown, &desk->stage, 0, warnings, err);
     if (!plan || !gn_gl_read_f32(desk->stage.gl, desk->shot, err)) return false;
     measure_step(desk, plan->shadow_count > 0 ? &plan->shadows[0] : NULL, figures);
     if (!desk->folder) return true;
@@ -151,10 +151,9 @@ static bool make_truth(struct desk *desk, struct gn_warnings *warnings, struct g
         gn_raycast_finish(&rays);
     }
     if (!desk->folder) return true;
-    struct gn_frame_shadow_opts *shadow = &desk->stage.frame_opts.shadow;
-    shadow->technique_given = true;
-    shadow->technique = GN_TECHNIQUE_TRUTH;
-    shadow->encoding = GN_ENCODING_AUTO;
+    struct gn_light_opts *any = &desk->stage.shown.opts.shadow.any;
+    GN_LIGHT_SET(any, technique, GN_TECHNIQUE_TRUTH);
+    any->given &= ~GN_LIGHT_GIVEN(map_format);
     return write_color(desk, "truth", warnings, err);
 }
 

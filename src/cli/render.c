@@ -122,7 +122,7 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
     const int frames = o->run.frames > 0 ? o->run.frames : 1;
     r->rgba = gn_picture_alloc(pixels, 4, err);
     if (!r->rgba) return false;
-    if (r->stage.frame_opts.debug.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM) {
+    if (r->stage.shown.opts.debug.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM) {
         r->floats = gn_picture_alloc(pixels, 4 * sizeof(float), err);
         if (!r->floats) return false;
     }
@@ -135,7 +135,8 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
         int64_t time_ns =
             o->scene.time_ns + (int64_t)llround((double)i / o->run.fps * (double)GN_NS_PER_S);
         r->begun_ns = r->percent = 0;
-        const struct gn_plan *plan = gn_stage_draw(&r->stage, time_ns, warnings, err);
+        const struct gn_plan *plan =
+            gn_view_draw(&r->stage.shown, &r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;
         if (o->run.plan && i == 0) gn_plan_print(plan, stdout);
         /* on a terminal, once the work has taken a second */
@@ -162,22 +163,22 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
         return gn_fail_usage(err, "-o %s: distances are metres and need a .pfm file", o->run.out);
 
     bool ok = gn_stage_load(&r.stage, o, warnings, err);
-    r.stage.frame_opts.keeps_alpha = r.format == GN_PICTURE_PNG;
-    r.stage.frame_opts.output_float = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
+    r.stage.shown.opts.output.keeps_alpha = r.format == GN_PICTURE_PNG;
+    r.stage.shown.opts.output.floats = o->render.aov == GN_AOV_COLOR && r.format == GN_PICTURE_PFM;
     if (isatty(STDERR_FILENO)) {
         r.stage.truth.progress = print_progress;
         r.stage.truth.user = &r;
     }
     ok = ok && gn_stage_open(&r.stage, warnings, err);
     if (ok)
-        r.stage.frame_opts.msaa = gn_stage_msaa(&r.stage, (uint32_t)o->render.size.width_px,
-                                                (uint32_t)o->render.size.height_px, true);
+        r.stage.shown.opts.output.msaa = gn_stage_msaa(&r.stage, (uint32_t)o->render.size.width_px,
+                                                       (uint32_t)o->render.size.height_px, true);
     if (ok && o->run.caption) { /* it stays: one layout for all frames */
         const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
         r.captions = gn_captions_create(&opts);
         gn_captions_set(r.captions, GN_CAPTION_ERROR, o->run.caption, 0);
-        r.stage.frame_opts.captions = gn_captions_run(r.captions, (uint32_t)o->render.size.width_px,
-                                                      (uint32_t)o->render.size.height_px, 0);
+        r.stage.shown.opts.cover.captions = gn_captions_run(
+            r.captions, (uint32_t)o->render.size.width_px, (uint32_t)o->render.size.height_px, 0);
     }
     ok = ok && draw_frames(&r, warnings, err);
     free(r.rgba);

@@ -67,13 +67,13 @@ static struct gn_selftest_count count_wrong(const struct desk *desk) {
 static bool draw_row(const struct desk *desk, const struct gn_selftest_row *row,
                      struct gn_err *err) {
     const struct gn_frame_opts opts = {
-        .width_px = desk->truth.width_px,
-        .height_px = desk->truth.height_px,
-        .shadow.technique_given = true,
-        .shadow.technique = row->technique,
-        .shadow.encoding = row->encoding,
-        .shadow.moments = row->moments,
-        .shadow.map_px = GN_SELFTEST_MAP_PX,
+        .output.width_px = desk->truth.width_px,
+        .output.height_px = desk->truth.height_px,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = row->technique,
+                       .map_px = GN_SELFTEST_MAP_PX,
+                       .map_format = GN_MAP_FORMAT(row->encoding, row->moments)},
         .debug.aov = GN_AOV_VISIBILITY,
     };
     const struct gn_plan *plan = gn_frame_build(desk->frame, &desk->pose, &opts, NULL);

@@ -166,6 +166,9 @@ bool gn_cli_take(const struct gn_options *options, struct gn_warnings *warnings,
     const char *dir = s->kiosk.content;
     const char *stick = options->word_count > 0 ? options->words[0] : NULL;
     struct gn_take take;
+    if (stick && s->run.rollback)
+        return gn_fail_usage(err, "take: --rollback takes no folder: unexpected argument \"%.80s\"",
+                             stick);
     if (strcmp(dir, "no") == 0)
         return gn_fail_usage(err, "take: nothing is to be taken: there is no content = DIR in "
                                   "[kiosk] of kiosk.ini, and no --content DIR");
@@ -173,7 +176,7 @@ bool gn_cli_take(const struct gn_options *options, struct gn_warnings *warnings,
         print_shown(dir);
         return true;
     }
-    bool ok = gn_take_open(&take, &gn_take_disk, dir, NULL, err);
+    bool ok = gn_take_open(&take, &gn_disk, dir, NULL, err);
     if (ok) ok = stick ? take_stick(options, &take, stick, warnings, err) : go_back(&take, err);
     gn_take_close(&take);
     return ok;

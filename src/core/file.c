@@ -161,7 +161,7 @@ static bool write_in_place(const char *path, int flags, const void *data, size_t
     fd = fd >= 0 ? fcntl(fd, F_DUPFD_CLOEXEC, 0)
                  : open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC | flags);
     if (fd < 0) return fail_errno(err, path, "write");
-    bool ok = gn_disk_write_all(gn_disk_write, NULL, fd, data, size);
+    bool ok = gn_disk_write_all(&gn_disk, fd, data, size);
     if (ok && fstat(fd, &info) == 0 && S_ISREG(info.st_mode)) { /* the file ends after the data */
         off_t end = lseek(fd, 0, SEEK_CUR);
         ok = end >= 0 && ftruncate(fd, end) == 0;
@@ -172,9 +172,10 @@ static bool write_in_place(const char *path, int flags, const void *data, size_t
 }
 
 /* A file that exists keeps its mode; until that is set only this user may read its successor. */
-static bool write_and_rename(const char *path, const struct stat *old, const void *data,
-                             size_t size, struct gn_err *err) {
+static bool write_and_rename(const struct gn_disk *disk, const char *path, const struct stat *old,
+                             const void *data, size_t size, struct gn_err *err) {
     /* a new file beside the path */
+    void *user = disk->user;
     char name[PATH_MAX], folder[PATH_MAX];
     const char *slash = strrchr(path, '/');
     int fd = -1;
@@ -186,30 +187,31 @@ static bool write_and_rename(const char *path, const struct stat *old, const voi
             errno = ENAMETOOLONG;
             break;
         }
-        fd = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old ? 0600 : 0666);
+        fd = disk->open(user, AT_FDCWD, name, O_WRONLY | O_CREAT | O_EXCL, old ? 0600 : 0666);
         if (fd < 0 && errno != EEXIST) break;
     }
     gn_stop_release(fd >= 0 ? name : NULL);
     if (fd < 0) return fail_errno(err, path, "write");
     flock(fd, LOCK_EX | LOCK_NB); /* in use: not swept */
-    bool ok = gn_disk_write_all(gn_disk_write, NULL, fd, data, size) &&
-              (!old || fchmod(fd, old->st_mode & 0777) == 0) && fsync(fd) == 0;
+    bool ok = gn_disk_write_all(disk, fd, data, size) &&
+              (!old || fchmod(fd, old->st_mode & 0777) == 0) && disk->fsync(user, fd) == 0;
     int reason = errno;
-    if (close(fd) != 0 && ok) {
+    if (disk->close(user, fd) != 0 && ok) {
         ok = false;
         reason = errno;
     }
     gn_stop_hold();
-    const bool renamed = ok && rename(name, path) == 0;
+    const bool renamed = ok && disk->rename(user, AT_FDCWD, name, path) == 0;
     if (ok && !renamed) reason = errno;
-    if (!renamed) unlink(name);
+    if (!renamed) disk->unlink(user, AT_FDCWD, name, 0);
     gn_stop_release(NULL);
     if (renamed) return true;
     errno = reason;
     return fail_errno(err, path, "write");
 }
 
-bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err) {
+static bool replace_file(const struct gn_disk *disk, const char *path, const void *data,
+                         size_t size, struct gn_err *err) {
     struct stat info;
     const bool exists = lstat(path, &info) == 0;
     if (!exists && errno != ENOENT) return fail_errno(err, path, "write");
@@ -218,7 +220,25 @@ bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_
                        path);
     if (exists && !S_ISREG(info.st_mode))
         return gn_fail(err, "%s: refusing to overwrite %s", path, kind_name(info.st_mode));
-    return write_and_rename(path, exists ? &info : NULL, data, size, err);
+    return write_and_rename(disk, path, exists ? &info : NULL, data, size, err);
+}
+
+bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err) {
+    return replace_file(&gn_disk, path, data, size, err);
+}
+
+bool gn_file_keep(const struct gn_disk *disk, const char *path, const void *data, size_t size,
+                  struct gn_err *err) {
+    if (!replace_file(disk, path, data, size, err)) return false;
+    const char *slash = strrchr(path, '/');
+    char folder[PATH_MAX];
+    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 1,
+             slash ? path : ".");
+    const int fd = disk->open(disk->user, AT_FDCWD, folder, O_RDONLY | O_DIRECTORY, 0);
+    const bool ok = fd >= 0 && (disk->fsync(disk->user, fd) == 0 || errno == EINVAL);
+    const int reason = errno; /* EINVAL: this file system flushes no folders */
+    if (fd >= 0) disk->close(disk->user, fd);
+    return ok || gn_fail(err, "%s: cannot write its folder: %s", path, strerror(reason));
 }
 
 bool gn_file_write(const char *path, const void *data, size_t size, struct gn_err *err) {

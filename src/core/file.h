@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "core/disk.h"
 #include "core/err.h"
 
 struct gn_bytes {
@@ -43,6 +44,11 @@ bool gn_file_write(const char *path, const void *data, size_t size, struct gn_er
 /* The same for a path from an untrusted source: replaces a regular file or creates one; refuses
  * everything else. */
 bool gn_file_replace(const char *path, const void *data, size_t size, struct gn_err *err);
+
+/* The same, by the system calls of that disk, and the folder is flushed, too: once it has returned,
+ * the file outlasts a loss of power. */
+bool gn_file_keep(const struct gn_disk *disk, const char *path, const void *data, size_t size,
+                  struct gn_err *err);
 
 /* Opens /dev/null as each of the descriptors 0, 1 and 2 that is closed: otherwise the next file
  * opened would get that number, and libraries print to it. */

@@ -1,6 +1,5 @@
 #include "core/text.h"
 
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,6 +49,22 @@ static char *write_escape(char *to, const unsigned char *c, size_t length) {
                               ? (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu)
                               : (c[0] & 0xfu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu);
     return to + snprintf(to, ESCAPE_BYTES + 1, "\\u%04x", code);
+}
+
+void gn_text_add(char *out, size_t size, const char *format, ...) {
+    const size_t used = strlen(out);
+    va_list args;
+    va_start(args, format);
+    vsnprintf(out + used, size - used, format, args);
+    va_end(args);
+}
+
+bool gn_text_word(const char **at, char *word, size_t size) {
+    *at += strspn(*at, " \t");
+    const size_t length = strcspn(*at, " \t");
+    snprintf(word, size, "%.*s", (int)length, *at);
+    *at += length;
+    return length > 0;
 }
 
 void gn_text_print(const char *text, FILE *to) {

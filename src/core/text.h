@@ -3,6 +3,7 @@
 #define GN_CORE_TEXT_H
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -16,6 +17,14 @@ void gn_text_vformat(char *out, size_t size, const char *format, va_list args);
  * printed as \u001b: C0, DEL and C1 control characters, separators of lines and paragraphs, and
  * bidirectional controls. */
 void gn_text_print(const char *text, FILE *to);
+
+/* Appends to the text in out, of size bytes with the ending zero; what does not fit is cut. */
+void gn_text_add(char *out, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
+/* Copies the next word of *at, of those with spaces or tabs between, and moves *at behind it.
+ * False: there are no more. A longer word is cut. */
+bool gn_text_word(const char **at, char *word, size_t size);
 
 /* How many edits of a character (insert, delete, replace, swap with the next) turn a into b; texts
  * beyond 31 characters are cut. */

@@ -112,15 +112,14 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
     for (uint32_t i = 0; i < frame->view_count; i++) {
         const enum gn_light_type type =
             frame->scene->lights[gn_frame_light_of_slot(frame, i)->light].type;
-        needs[i] =
-            (struct gn_map_need){.technique = maps[i].technique,
-                                 .encoding = maps[i].encoding,
-                                 .moments = maps[i].moments,
-                                 /* counted whether this eye needs them or not */
-                                 .paged = !gn_light_types[type].has_position &&
-                                          !gn_techniques[maps[i].technique].on_plane,
-                                 .backs = gn_frame_has_middle(frame, maps[i].technique,
-                                                              maps[i].faces_given, maps[i].faces)};
+        needs[i] = (struct gn_map_need){
+            .technique = maps[i].technique,
+            .encoding = maps[i].encoding,
+            .moments = maps[i].moments,
+            /* counted whether this eye needs them or not */
+            .paged =
+                !gn_light_types[type].has_position && !gn_techniques[maps[i].technique].on_plane,
+            .backs = gn_frame_has_middle(frame, maps[i].technique, maps[i].light.faces)};
         set_size(type, &maps[i], &needs[i]);
     }
     while (gn_map_needs_bytes(needs, frame->view_count) > most_bytes) {

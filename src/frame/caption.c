@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "blocks.glsl"
+#include "core/srgb.h"
 #include "frame/private.h"
 
 static void add_rectangle(struct gn_frame *frame, const struct gn_caption_quad *q, float alpha) {
@@ -61,7 +62,7 @@ static void add_dimming(struct gn_frame *frame, float share) {
     const bool encodes = frame->plan.encode_srgb;
     const float ground = (float)CAPTION_SHADE;
     const float shade = encodes ? ground : powf((ground + 0.055f) / 1.055f, 2.4f);
-    float left = encodes ? gn_frame_srgb_from_linear(light) : light;
+    float left = encodes ? gn_srgb_encode(light) : light;
     while (left < shade) {
         add_rectangle(frame, &all, 1.0f);
         left /= shade;
@@ -72,21 +73,21 @@ static void add_dimming(struct gn_frame *frame, float share) {
 void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts) {
     (void)pose;
-    const struct gn_caption_run *run = opts->captions;
+    const struct gn_caption_run *run = opts->cover.captions;
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = GN_PROGRAM_CAPTION;
     if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
     if (opts->debug.aov != GN_AOV_COLOR) return;
-    if (opts->captions_later) gn_frame_program(frame, &key);
+    if (opts->cover.captions_later) gn_frame_program(frame, &key);
     if (run &&
         (run->width_px != frame->picture.width_px || run->height_px != frame->picture.height_px))
         run = NULL;
     const uint32_t first = frame->instances.count;
     struct bounds seen = visible_bounds(run);
     if (run) add_quads(frame, run, &seen, opts->view.shift_px);
-    if (opts->dimmed > 0.0f) {
-        add_dimming(frame, opts->dimmed);
+    if (opts->cover.dimmed > 0.0f) {
+        add_dimming(frame, opts->cover.dimmed);
         seen = (struct bounds){.right = (int32_t)frame->picture.width_px,
                                .bottom = (int32_t)frame->picture.height_px};
     }

@@ -38,14 +38,14 @@ static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow
         struct gn_eye eye = v->frame->eye;
         const struct gn_pose *pose = v->now;
         if (i > 0) { /* not the current camera */
-            if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->clips);
-            if (v->now->over != v->other.over)
-                gn_pose_choose_over(&v->other, v->now->clips, v->now->over);
+            if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->at.clips);
+            if (v->now->at.over != v->other.at.over)
+                gn_pose_choose_over(&v->other, v->now->at.clips, v->now->at.over);
             if (v->now->aimed) gn_pose_aim(&v->other, v->now->aim_ws);
             const int64_t ns = v->lasts_ns / (OTHERS - 1) * (i - 1);
             const bool last = i == OTHERS && ns > 0; /* the end of the path, too */
-            v->other.over_ns = last ? v->lasts_ns - 1 : ns;
-            gn_pose_step(&v->other, v->other.over_ns);
+            v->other.at.over_ns = last ? v->lasts_ns - 1 : ns;
+            gn_pose_step(&v->other, v->other.at.over_ns);
             gn_frame_eye_at(v->frame, &v->other, v->opts, &eye);
             pose = &v->other;
         }
@@ -121,8 +121,8 @@ uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *
                            frame->camera,
                            frame->picture.width_px,
                            frame->picture.height_px,
-                           (uint32_t)pose->clips,
-                           (uint32_t)(v.moves ? pose->over : -1)};
+                           (uint32_t)pose->at.clips,
+                           (uint32_t)(v.moves ? pose->at.over : -1)};
     const uint64_t choice = gn_hash(GN_HASH_INIT, by, sizeof by);
     for (struct gn_cascade_choice *c = note->cascades; c < note->cascades + GN_CASCADE_CHOICES; c++)
         if (c->count > 0 && c->choice == choice) {

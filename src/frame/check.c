@@ -55,7 +55,7 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE(key->moments < GN_MOMENTS_COUNT);
     REQUIRE((key->kind == GN_PROGRAM_FILTER) == (key->moments != GN_MOMENTS_NONE));
     REQUIRE(key->receiver <= GN_RECEIVES_ALL);
-    REQUIRE((key->features & ~gn_features_all()) == 0);
+    REQUIRE((key->features & ~GN_FEATURES_ALL) == 0);
     for (int i = 0; i < key->light_count; i++) {
         REQUIRE((key->lights[i].technique != GN_TECHNIQUE_NONE) == (i < key->shadow_count));
         REQUIRE(key->lights[i].technique < GN_TECHNIQUE_ALL);

@@ -145,11 +145,12 @@ void gn_frame_light_constants(const struct gn_frame *frame, const struct gn_pose
         vec3 place, direction;
         gn_pose_light(pose, chosen->light, place, direction);
         for (int k = 0; k < 3; k++) {
-            c[LIGHT_COLOR][k] = chosen->color[k] * frame->plan.exposure / GLM_PIf;
+            c[LIGHT_COLOR][k] = chosen->opts.color[k] * frame->plan.exposure / GLM_PIf;
             c[LIGHT_PLACE][k] = gn_light_types[light->type].has_position ? place[k] : -direction[k];
         }
-        c[LIGHT_COLOR][3] = chosen->strength;
-        if (frame->shadow_specular) c[LIGHT_COLOR][3] += 2.0f * roundf(255.0f * chosen->specular);
+        c[LIGHT_COLOR][3] = chosen->opts.strength;
+        if (frame->shadow_specular)
+            c[LIGHT_COLOR][3] += 2.0f * roundf(255.0f * chosen->opts.specular);
         c[LIGHT_PLACE][3] = light->range_m > 0.0f ? 1.0f / light->range_m : 0.0f;
         put3(c[LIGHT_AXIS], direction);
         float outer = cosf(light->outer_rad), inner = cosf(light->inner_rad);

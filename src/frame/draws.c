@@ -83,7 +83,7 @@ static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
 static void set_transmitted(const struct gn_material *m, struct gn_instance *instance) {
     if (!gn_material_is_transmissive(m)) return;
     const float *c = m->base_color;
-    const float through = m->transmission * (1.0f - m->metalness) *
+    const float through = m->factors[GN_FACTOR_TRANSMISSION] * (1.0f - m->metalness) *
                           glm_clamp_zo(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);
     if (m->alpha == GN_ALPHA_OPAQUE) instance->base_color[3] = 1.0f;
     if (m->textures[GN_TEXTURE_TRANSMISSION].texture >= 0)
@@ -152,7 +152,7 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
     instance->surface[0] = m->roughness;
     instance->surface[1] = m->metalness;
     instance->surface[2] = m->occlusion_strength;
-    instance->surface[3] = in_parts ? GN_OPAQUE_ALPHA : m->alpha_cutoff;
+    instance->surface[3] = in_parts ? GN_OPAQUE_ALPHA : gn_material_least_alpha(m);
     if (s->casts) set_transmitted(m, instance);
     if (m->shadow_catcher) { /* centre of its square, 1 / half its side, 1 / side of the occluded
                                 part */

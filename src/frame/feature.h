@@ -1,7 +1,7 @@
 /* Features of a program: one row each. A row is a bit of gn_program_key.features, a `const bool`
  * and, where it is set, a WITH_ macro of that name in GLSL, and a word where keys are printed.
- * Textures (scene/material.h) and vertex attributes (scene/attribute.h) bring theirs along; each
- * kind has a range of bits of its own, so that a new row renumbers no other. */
+ * Layers and textures (scene/material.h) and vertex attributes (scene/attribute.h) bring theirs
+ * along. */
 #ifndef GN_FRAME_FEATURE_H
 #define GN_FRAME_FEATURE_H
 
@@ -10,7 +10,8 @@
 #include "scene/attribute.h"
 #include "scene/material.h"
 
-/* X(NAME, printed name): what is no texture and no attribute. */
+/* X(NAME, printed name, ..): what is no texture and no attribute. TRANSMISSION of LIT with UNLIT:
+ * its tint alone; of ENCODE: there is such. */
 #define GN_FEATURES(X)                                                                             \
     X(ALPHA_MASK, "mask")                                                                          \
     X(ALPHA_BLEND, "blend")                                                                        \
@@ -40,9 +41,7 @@
     X(ENVIRONMENT_DIFFUSE, "environment-diffuse") /* in place of the hemispheres */                \
     X(ENVIRONMENT_SCALED, "environment-scaled")   /* by a factor other than 1 */                   \
     X(ENVIRONMENT_TURNED, "environment-turned")                                                    \
-    X(COAT, "coat")                 /* a clear coat over the rest */                               \
-    X(TRANSMISSION, "transmission") /* shows what is behind. LIT with UNLIT: its tint alone;       \
-                                       ENCODE: there is such */                                    \
+    GN_LAYERS(X, GN_LEAVE_OUT, GN_LEAVE_OUT)                                                       \
     X(TINTED, "tinted") /* LIT: in colour, which a draw before has multiplied in; this one adds */ \
     X(ENVIRONMENT_KEY, "environment-key") /* smooth surfaces reflect it with its key light */      \
     X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */        \
@@ -51,43 +50,32 @@
     X(MORPH, "morph")   /* the mesh has targets */
 
 enum gn_feature_bit {
-    GN_FEATURE_FIRST_TEXTURE = 0,    /* that slot has a texture */
-    GN_FEATURE_FIRST_UV1 = 10,       /* and reads TEXCOORD_1 */
-    GN_FEATURE_FIRST_ATTRIBUTE = 20, /* VERTEX_COLOR ..: the geometry has it */
-    GN_FEATURE_FIRST_FLAG = 24,
-#define GN_X(NAME, ...)                                                                            \
-    GN_BIT_##NAME##_TEXTURE = GN_FEATURE_FIRST_TEXTURE + GN_TEXTURE_##NAME,                        \
-    GN_BIT_##NAME##_UV1 = GN_FEATURE_FIRST_UV1 + GN_TEXTURE_##NAME,
+#define GN_X(NAME, ...) GN_BIT_##NAME##_TEXTURE, /* that slot has a texture */
     GN_TEXTURE_SLOTS(GN_X)
 #undef GN_X
-#define GN_X(NAME, ...)                                                                            \
-    GN_BIT_VERTEX_##NAME =                                                                         \
-        GN_FEATURE_FIRST_ATTRIBUTE + GN_ATTRIBUTE_##NAME - GN_PLAIN_ATTRIBUTE_COUNT,
-        GN_FEATURE_ATTRIBUTES(GN_X)
+#define GN_X(NAME, ...) GN_BIT_##NAME##_UV1, /* and reads TEXCOORD_1 */
+        GN_TEXTURE_SLOTS(GN_X)
 #undef GN_X
-            GN_BIT_BEFORE_FLAGS = GN_FEATURE_FIRST_FLAG - 1,
+#define GN_X(NAME, ...) GN_BIT_VERTEX_##NAME, /* the geometry has it */
+            GN_FEATURE_ATTRIBUTES(GN_X)
+#undef GN_X
 #define GN_X(NAME, ...) GN_BIT_##NAME,
-    GN_FEATURES(GN_X)
+                GN_FEATURES(GN_X)
 #undef GN_X
-        GN_BIT_END,
+                    GN_FEATURE_COUNT,
+    GN_FEATURE_FIRST_TEXTURE = 0,
+    GN_FEATURE_FIRST_UV1 = GN_TEXTURE_SLOT_COUNT,
+    GN_FEATURE_FIRST_ATTRIBUTE = 2 * GN_TEXTURE_SLOT_COUNT,
 };
-_Static_assert(GN_TEXTURE_SLOT_COUNT <= GN_FEATURE_FIRST_UV1 - GN_FEATURE_FIRST_TEXTURE, "bits");
-_Static_assert(GN_FEATURE_ATTRIBUTE_COUNT <= GN_FEATURE_FIRST_FLAG - GN_FEATURE_FIRST_ATTRIBUTE,
-               "bits");
-_Static_assert(GN_BIT_END <= 64, "bits of gn_program_key.features");
+_Static_assert(GN_FEATURE_COUNT < 64, "bits of gn_program_key.features");
 
 /* The bit as a mask: GN_FEATURE(ALPHA_MASK). */
 #define GN_FEATURE(NAME) (UINT64_C(1) << GN_BIT_##NAME)
+#define GN_FEATURES_ALL  ((UINT64_C(1) << GN_FEATURE_COUNT) - 1)
 
-enum {
-    GN_FEATURE_COUNT =
-        2 * GN_TEXTURE_SLOT_COUNT + GN_FEATURE_ATTRIBUTE_COUNT + GN_BIT_END - GN_FEATURE_FIRST_FLAG
-};
 struct gn_feature_row {
-    uint8_t bit;
     const char *glsl, *name;
 };
-extern const struct gn_feature_row gn_features[GN_FEATURE_COUNT]; /* by ascending bit */
-uint64_t gn_features_all(void);
+extern const struct gn_feature_row gn_features[GN_FEATURE_COUNT]; /* by bit */
 
 #endif

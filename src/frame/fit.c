@@ -45,16 +45,10 @@ static void take_mipmaps(struct gn_frame *frame, struct gn_frame_light *light,
 static struct gn_shadow_opts wanted_map(struct gn_frame *frame, const struct gn_frame_opts *opts,
                                         uint32_t slot) {
     const struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
-    const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
-    uint32_t px = opts->shadow.map_px;
-    if (one.given & GN_LIGHT_MAP_PX) px = one.map_px;
-    if (!px) px = frame->scene->lights[light->light].map_px;
+    uint32_t px = light->opts.map_px;
     if (!px) px = gn_techniques[light->technique].map_px;
     if (!px) px = 1024;
     if (light->encoding == GN_ENCODING_STENCIL) px = 0; /* no map */
-    const int faces = one.given & GN_LIGHT_FACES ? one.faces : opts->shadow.faces;
-    const float bias = one.given & GN_LIGHT_BIAS ? one.bias_texels : opts->shadow.bias_texels;
-    const bool biased = one.given & GN_LIGHT_BIAS ? bias >= 0.0f : opts->shadow.bias_given;
     return (struct gn_shadow_opts){.technique = light->technique,
                                    .encoding = light->encoding,
                                    .moments = light->moments,
@@ -62,13 +56,7 @@ static struct gn_shadow_opts wanted_map(struct gn_frame *frame, const struct gn_
                                    .plane = gn_frame_plane_of_slot(frame, slot),
                                    .points = opts->shadow.planar_points,
                                    .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
-                                   .faces_given = faces > 0,
-                                   .faces = (enum gn_cast_faces)(faces > 0 ? faces - 1 : 0),
-                                   .radius_given = one.given & GN_LIGHT_RADIUS,
-                                   .radius = one.radius,
-                                   .bias_given = biased,
-                                   .bias_texels = bias,
-                                   .filter_radius_px = gn_frame_filter_radius_px(opts, &one),
+                                   .light = light->opts,
                                    .cascades = opts->shadow.cascades ? opts->shadow.cascades
                                                                      : GN_CASCADES_MAX};
 }
@@ -84,18 +72,15 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         light->cascades = 1;
         if (gn_techniques[light->technique].on_screen) continue;
         const struct gn_light *l = &frame->scene->lights[light->light];
-        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
         struct gn_shadow_opts *shadow = &maps[slot];
         *shadow = wanted_map(frame, opts, slot);
         const uint32_t asked = shadow->map_px, most = gn_frame_most_px(frame, light, 1);
         if (asked > most) shadow->map_px = most;
         gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));
-        const uint32_t count =
-            one.given & GN_LIGHT_CASCADES ? one.cascades : opts->shadow.cascade_count;
-        if (count == 0)
+        if (light->opts.cascades == 0)
             shadow->cascades = gn_frame_choose_cascades(frame, pose, opts, slot, shadow);
         else
-            shadow->cascades = gn_cascade_can(l, &frame->eye, shadow) ? count : 1;
+            shadow->cascades = gn_cascade_can(l, &frame->eye, shadow) ? light->opts.cascades : 1;
         light->cascades = shadow->cascades;
         take_mipmaps(frame, light, shadow, warnings);
         if (shadow->cascades > 1) gn_frame_make_memories(frame, slot, GN_CASCADE_MEMORIES);

@@ -43,14 +43,14 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
                           struct gn_warnings *warnings) {
     struct gn_plan *plan = &frame->plan;
     plan->aov = opts->debug.aov;
-    const bool encodes = frame->caps.has & 1u << GN_CAP_SRGB && !opts->unencoded;
-    plan->msaa = opts->debug.aov == GN_AOV_COLOR ? opts->msaa : 0;
+    const bool encodes = frame->caps.has & 1u << GN_CAP_SRGB && !opts->output.unencoded;
+    plan->msaa = opts->debug.aov == GN_AOV_COLOR ? opts->output.msaa : 0;
     plan->encode_srgb = false;
     if (opts->debug.aov != GN_AOV_COLOR)
         plan->output = GN_OUTPUT_AOV;
-    else if (opts->output_float && frame->caps.has & 1u << GN_CAP_RGBA16F)
+    else if (opts->output.floats && frame->caps.has & 1u << GN_CAP_RGBA16F)
         plan->output = GN_OUTPUT_FLOAT;
-    else if (opts->output_linear || opts->output_float)
+    else if (opts->output.linear || opts->output.floats)
         plan->output = GN_OUTPUT_LINEAR8;
     else if (encodes)
         plan->output = GN_OUTPUT_SRGB8;
@@ -58,7 +58,7 @@ static void choose_output(struct gn_frame *frame, const struct gn_frame_opts *op
         plan->output = GN_OUTPUT_LINEAR8;
         plan->encode_srgb = true;
     }
-    if (opts->debug.aov == GN_AOV_COLOR && opts->output_float && plan->output != GN_OUTPUT_FLOAT &&
+    if (opts->debug.aov == GN_AOV_COLOR && opts->output.floats && plan->output != GN_OUTPUT_FLOAT &&
         gn_frame_notice(&frame->notes.said, GN_NOTICE_FLOAT, warnings))
         gn_warn(warnings, "this GPU cannot render to half floats: colour is 8 bits, clamped to 1");
     if (plan->msaa && !(frame->caps.has & 1u << GN_CAP_MSAA4)) {
@@ -73,7 +73,7 @@ static bool keeps_alpha(struct gn_frame *frame, const struct gn_frame_opts *opts
     if (opts->background != GN_BACKGROUND_TRANSPARENT || opts->debug.aov != GN_AOV_COLOR)
         return false;
     const bool floats = frame->caps.has & 1u << GN_CAP_RGBA16F;
-    if (opts->keeps_alpha && floats && !opts->output_float) return true;
+    if (opts->output.keeps_alpha && floats && !opts->output.floats) return true;
     if (gn_frame_notice(&frame->notes.said, GN_NOTICE_TRANSPARENT, warnings))
         gn_warn(warnings, "a transparent background is for .png files%s; here it is black",
                 floats ? "" : ", drawn by a GPU with rgba16f targets");
@@ -147,15 +147,15 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     struct gn_plan *plan = &frame->plan;
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
     *plan = (struct gn_plan){.scene = frame->scene, .maps_bytes = opts->shadow.maps_bytes};
-    plan->width_px = opts->width_px ? opts->width_px : 1280;
-    plan->height_px = opts->height_px ? opts->height_px : 720;
+    plan->width_px = opts->output.width_px ? opts->output.width_px : 1280;
+    plan->height_px = opts->output.height_px ? opts->output.height_px : 720;
     frame->camera = opts->view.light_plus_1
                         ? frame->scene->camera_count + opts->view.light_plus_1 - 1
                         : (uint32_t)opts->view.camera;
-    const bool on_side = opts->turn_deg / 90 % 2;
+    const bool on_side = opts->output.turn_deg / 90 % 2;
     frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
     frame->picture.height_px = on_side ? plan->width_px : plan->height_px;
-    memcpy(frame->picture.turn, turns[opts->turn_deg / 90 % 4], sizeof frame->picture.turn);
+    memcpy(frame->picture.turn, turns[opts->output.turn_deg / 90 % 4], sizeof frame->picture.turn);
     gn_frame_learn_scene(frame);
     gn_frame_renew_notices(frame, opts);
     choose_output(frame, opts, warnings);

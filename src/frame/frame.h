@@ -4,84 +4,28 @@
 
 #include "frame/orbit.h"
 #include "frame/plan.h"
+#include "shadow/light_opts.h"
 
 /* In all options zero means the default written beside. */
 
-/* What holds for one light, whatever options say of all and the scene says of it. */
-enum gn_light_given {
-    GN_LIGHT_TECHNIQUE = 1,
-    GN_LIGHT_FORMAT = 2, /* encoding and moments */
-    GN_LIGHT_MAP_PX = 4,
-    GN_LIGHT_STRENGTH = 8,
-    GN_LIGHT_RADIUS = 16,
-    GN_LIGHT_CASCADES = 32,
-    GN_LIGHT_FACES = 64,
-    GN_LIGHT_SLIDE = 128,
-    GN_LIGHT_SPECULAR = 256,
-    GN_LIGHT_BIAS = 512,
-    GN_LIGHT_FILTER = 1024,
-    GN_LIGHT_TAPS = 2048,
-    GN_LIGHT_SLIDE_FAR = 4096,
-    GN_LIGHT_COLOR = 8192,
-    GN_LIGHT_OFF = 16384, /* it does not shine */
-};
-struct gn_frame_light_opts { /* all of 4 bytes: hashed */
-    uint32_t light;          /* index in the scene */
-    uint32_t given;          /* bits: enum gn_light_given */
-    enum gn_technique technique;
-    enum gn_encoding encoding;
-    enum gn_moments moments;
-    uint32_t map_px;
-    float strength;
-    float specular;    /* below 0: as much as of the rest */
-    float radius;      /* as in gn_light */
-    uint32_t cascades; /* as cascade_count */
-    int faces;         /* as below, and the next */
-    uint32_t slide_as_picture;
-    float slide_far_m;      /* as in gn_light; below 0: the scene's */
-    float bias_texels;      /* below 0: the technique's */
-    float filter_radius_px; /* 0: the technique's */
-    uint32_t taps;          /* as below */
-    float color[3];         /* as in gn_light; does not change an automatic exposure */
-};
-
-struct gn_frame_shadow_opts { /* overrides of what lights ask for, and limits */
-    bool technique_given; /* `technique` overrides the lights' own and the default pcf; a light's
-                             own none holds */
-    enum gn_technique technique;
-    enum gn_encoding encoding; /* GN_ENCODING_AUTO must be set for the automatic choice */
-    enum gn_moments moments;   /* of techniques that filter their map; NONE: the automatic choice */
-    uint32_t map_px;           /* 0: the light's, else the technique's */
-    uint32_t cascades;         /* limit per light; 4 */
-    uint32_t cascade_count; /* so many of each light that can have them; 0: as few as are enough */
+struct gn_frame_shadow_opts { /* limits, and what is set for lights */
+    uint32_t cascades;        /* limit per light; 4 */
     uint64_t filter_texels; /* of filtered maps that one frame makes again, if that is more than one
                                map; others stay as they are for a while. 0: all are made */
     uint64_t maps_bytes; /* limit on what shadows take on the GPU: maps, their pages, what they are
                             filtered into. Maps over it are made smaller. 0: none */
     uint64_t triangles;  /* limit on what a frame draws, maps included; the weakest lights cast no
                             shadow where it is more. 0: none */
-    bool planar_in_stencil; /* planar lights have no map: casters go into the picture's stencil */
-    uint32_t planar_points; /* else 0: shadows of a point; or of so many points of the lamp (16 to
-                               256, a power of two), their mean */
-    uint32_t gather_points; /* of them, that one frame adds to a mask; 0: all. A mask has as many
-                               when something moves that it shows, and more with each frame in
-                               which nothing does */
-    unsigned taps;          /* a multiple of 4 to GN_TAPS_MAX; cone: 8 to 16; 0: 16, cone 12 */
-    bool taps_fixed;        /* the same for every pixel */
-    int faces; /* which faces of all casters go into maps: 0: as the scene says of each, else 1 +
-                  enum gn_cast_faces. Not of planar lights */
-    bool bias_given;
-    float bias_texels;      /* in place of the techniques' */
-    float filter_radius_px; /* radius of filters that can have another one; 0: the techniques' */
-    bool clears_near;       /* maps are cleared to the wrong end, for the lesson about it; far */
-    bool slide_as_picture;  /* a slide without a size has the shape of its picture; square */
-    bool slide_far_given;
-    float slide_far_m; /* overrides gnomon_slide_far_m of lights */
-    bool strength_given;
-    float strength; /* overrides the lights' gnomon_shadow_strength */
-    bool specular_given;
-    float specular; /* share of highlights that shadows leave; below 0: as much as of the rest */
-    struct gn_frame_light_opts lights[GN_ALL_LIGHTS_MAX]; /* each light once */
+    bool planar_in_stencil;   /* planar lights have no map: casters go into the picture's stencil */
+    uint32_t planar_points;   /* else 0: shadows of a point; or of so many points of the lamp (16 to
+                                 256, a power of two), their mean */
+    uint32_t gather_points;   /* of them, that one frame adds to a mask; 0: all. A mask has as many
+                                 when something moves that it shows, and more with each frame in
+                                 which nothing does */
+    bool taps_fixed;          /* the same for every pixel */
+    bool clears_near;         /* maps are cleared to the wrong end, for the lesson about it; far */
+    struct gn_light_opts any; /* of all lights; `light` has no meaning */
+    struct gn_light_opts lights[GN_ALL_LIGHTS_MAX]; /* of one light; each light once */
     uint32_t light_count;
 };
 
@@ -119,7 +63,22 @@ struct gn_frame_environment_opts {
     bool reflected_only; /* in materials that need reflections alone; the hemispheres stay */
     enum gn_environment_show show; /* in place of opts->background, unless that is transparent */
     float turn_rad;                /* about +Y */
-    float strength;                /* factor on its radiance; must be set */
+    float strength;                /* factor on its radiance; 0: it gives no light */
+};
+
+struct gn_frame_output_opts {     /* what the picture is drawn to: assigned whole */
+    uint32_t width_px, height_px; /* 1280 x 720 */
+    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
+                                     clockwise by this; by 90 it is height_px wide */
+    uint32_t msaa;
+    bool unencoded;      /* its framebuffer does not encode: shaders do */
+    bool linear, floats; /* it stores linear bytes, or half floats */
+    bool keeps_alpha;    /* alpha has a meaning there: a file */
+};
+struct gn_frame_cover_opts {               /* what lies over the finished picture */
+    const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
+    bool captions_later;                   /* include their program even without captions */
+    float dimmed; /* share of its light that the picture loses, captions too; 0: none */
 };
 
 struct gn_frame_opts {
@@ -127,11 +86,8 @@ struct gn_frame_opts {
     struct gn_frame_environment_opts environment;
     struct gn_frame_view_opts view;
     struct gn_frame_debug_opts debug;
-    uint32_t width_px, height_px; /* of the output; 1280 x 720 */
-    unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
-                                     clockwise by this; by 90 it is height_px wide */
-    bool unencoded;               /* the output's framebuffer does not encode: shaders do */
-    bool output_linear, output_float;
+    struct gn_frame_output_opts output;
+    struct gn_frame_cover_opts cover;
     enum gn_background {
         GN_BACKGROUND_SCENE, /* as the scene has it */
         GN_BACKGROUND_SKY,   /* the hemisphere's horizon, whatever the scene has */
@@ -139,31 +95,30 @@ struct gn_frame_opts {
         GN_BACKGROUND_TRANSPARENT, /* where the output keeps alpha; else black */
     } background;
     float background_color[3]; /* linear */
-    bool keeps_alpha;          /* the picture goes where alpha has a meaning: a file */
     enum gn_tone tone;         /* AUTO: as gn_frame_choose_tone() decides */
-    uint32_t msaa;
     bool exposure_given;
-    float exposure_ev;                     /* stops, when given; else automatic */
-    bool all_seen;                         /* no culling: for programs that will be needed later */
-    const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
-    bool captions_later;                   /* include their program even without captions */
-    float dimmed; /* share of its light that the finished picture loses, captions too; 0: none */
+    float exposure_ev; /* stops, when given; else automatic */
+    bool all_seen;     /* no culling: for programs that will be needed later */
 };
 
-/* What options say of that light of the scene alone; nothing given: no such options. */
-struct gn_frame_light_opts gn_frame_light_opts(const struct gn_frame_opts *opts, uint32_t light);
 /* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from
  * +Z, towards +X. Moved by the user and by the turntable; never that of a light. */
 float gn_frame_camera_azimuth(const struct gn_pose *pose, const struct gn_frame_view_opts *view);
-/* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
- * what casts. */
-void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
-                           struct gn_camera *camera, mat4 view_from_world, vec3 eye_ws);
+/* The camera of a picture of this shape, which plans and rays both are of: moved by the user and
+ * the turntable, its near and far planes around the scene, its orthographic half-sizes those of the
+ * picture. */
+void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts *view,
+                     float aspect, struct gn_framing *framing);
 
 struct gn_frame; /* the builder: keeps its memory from frame to frame, allocates only while growing
                   */
 struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps);
 void gn_frame_destroy(struct gn_frame *frame);
+/* opts.c: what holds for a light once a plan was built: its own options, else those of all lights
+ * (but a light that casts no shadow in the scene casts none), else the scene at this pose. A field
+ * that none of them has is zero, or automatic. */
+struct gn_light_opts gn_frame_light_opts(const struct gn_frame *frame, const struct gn_pose *pose,
+                                         const struct gn_frame_opts *opts, uint32_t light);
 /* Builds the plan of this pose. Never fails: what cannot be is left out with a warning, which a
  * builder gives once, and once more when options change. */
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,

@@ -12,6 +12,18 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
     return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
 }
 
+/* What has no part in a program that only adds or transmits light. */
+static uint64_t ambient_features(void) {
+    uint64_t features = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
+                        GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
+                        GN_FEATURE(ENVIRONMENT_TURNED);
+    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
+        if (gn_texture_slots[slot].shading == GN_SHADING_EMISSION ||
+            gn_texture_slots[slot].shading == GN_SHADING_AMBIENT)
+            features |= texture_bit(slot) | uv1_bit(slot);
+    return features;
+}
+
 /* How its vertices are posed. */
 static uint64_t deformation_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_geometry *geometry = &scene->geometries[item->geometry];
@@ -73,7 +85,10 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     const uint64_t attributes = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
     features |= attributes << GN_FEATURE_FIRST_ATTRIBUTE;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
-    if (gn_material_is_transmissive(m)) features |= GN_FEATURE(TRANSMISSION);
+#define GN_X(NAME, ...)                                                                            \
+    if (gn_material_has(m, GN_LAYER_##NAME)) features |= GN_FEATURE(NAME);
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
     if (gn_key_is_tinted(scene, item)) features |= GN_FEATURE(TINTED);
     if (!frame->plan.tones_sum) features |= gn_frame_tone_feature(frame);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
@@ -88,7 +103,6 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
         if (frame->shadow_specular) features |= GN_FEATURE(SHADOW_SPECULAR);
     }
     if (gn_material_is_metal(m)) features |= GN_FEATURE(METAL);
-    if (gn_material_is_coated(m)) features |= GN_FEATURE(COAT);
     if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
     features |= environment_features(frame, m);
     if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0 &&
@@ -135,7 +149,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         const struct gn_frame_light *light = &frame->lights[group->first + i];
         key->lights[i].type = (uint8_t)frame->scene->lights[light->light].type;
         key->lights[i].slide = (uint8_t)light->slide;
-        key->lights[i].slide_ends = light->slide != GN_SLIDE_NONE && light->slide_far_m > 0.0f;
+        key->lights[i].slide_ends = light->slide != GN_SLIDE_NONE && light->opts.slide_far_m > 0.0f;
         key->lights[i].ranged = gn_light_types[key->lights[i].type].has_position &&
                                 (frame->scene->lights[light->light].range_m > 0.0f ||
                                  frame->scene->lights[light->light].range_moves);
@@ -144,12 +158,10 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].encoding = (uint8_t)gn_encoding_of_programs(light->encoding);
         key->lights[i].moments = (uint8_t)gn_moments_of_programs(light->moments);
         key->lights[i].cascades = light->cascades > 1;
-        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
         key->lights[i].filter_set = gn_techniques[light->technique].filter_radius_px > 0.0f &&
-                                    gn_frame_filter_radius_px(opts, &one) > 0.0f;
-        const uint32_t taps = one.given & GN_LIGHT_TAPS ? one.taps : opts->shadow.taps;
+                                    light->opts.filter_radius_px > 0.0f;
         key->lights[i].taps =
-            (uint8_t)gn_taps_count(gn_techniques[light->technique].taps, (int)taps);
+            (uint8_t)gn_taps_count(gn_techniques[light->technique].taps, (int)light->opts.taps);
         if (key->lights[i].taps) key->taps_turn = !opts->shadow.taps_fixed;
     }
 }
@@ -187,14 +199,9 @@ void gn_key_take_part(bool rest, struct gn_program_key *key) {
 }
 
 struct gn_program_key gn_key_tint(const struct gn_program_key *lit) {
-    uint64_t lost = GN_FEATURE(TONE_NEUTRAL) | GN_FEATURE(TONE_ACES) | GN_FEATURE(TONE_AGX) |
-                    GN_FEATURE(FLAT_CONSTANTS) | GN_FEATURE(SHADOW_SPECULAR) |
-                    GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
-                    GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
-                    GN_FEATURE(ENVIRONMENT_TURNED);
-    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        if (gn_texture_slots[slot].shading >= GN_SHADING_EMISSION)
-            lost |= texture_bit(slot) | uv1_bit(slot);
+    const uint64_t lost = GN_FEATURE(TONE_NEUTRAL) | GN_FEATURE(TONE_ACES) | GN_FEATURE(TONE_AGX) |
+                          GN_FEATURE(FLAT_CONSTANTS) | GN_FEATURE(SHADOW_SPECULAR) |
+                          ambient_features();
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = lit->kind;
@@ -206,12 +213,7 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,
                                       const struct gn_light_group *group,
                                       const struct gn_frame_opts *opts) {
-    uint64_t once = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
-                    GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
-                    GN_FEATURE(ENVIRONMENT_TURNED) | GN_FEATURE(ENVIRONMENT_KEY);
-    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        if (gn_texture_slots[slot].shading >= GN_SHADING_EMISSION)
-            once |= texture_bit(slot) | uv1_bit(slot);
+    const uint64_t once = GN_FEATURE(ENVIRONMENT_KEY) | ambient_features();
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = lit->kind;

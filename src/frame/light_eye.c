@@ -50,15 +50,17 @@ static void look_from_afar(const struct gn_box *box, float size_m, struct gn_cam
 }
 
 void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
-                           struct gn_camera *camera, mat4 view_from_world, vec3 eye_ws) {
+                           struct gn_framing *framing) {
     const struct gn_light *l = &pose->lights[light];
     const struct gn_box *all = &pose->scene->box, casters = find_casters(pose);
     const float size_m = fmaxf(glm_vec3_distance((float *)all->min, (float *)all->max), 1e-6f);
-    *camera = (struct gn_camera){.name = l->name, .node = l->node};
-    gn_pose_light_view(pose, light, view_from_world);
+    vec4 *view = framing->view_from_world;
+    framing->camera = (struct gn_camera){.name = l->name, .node = l->node};
+    framing->distance_m = 0.0f;
+    gn_pose_light_view(pose, light, view);
     if (gn_light_types[l->type].has_position)
-        look_from_spot(l, size_m, aspect, camera);
+        look_from_spot(l, size_m, aspect, &framing->camera);
     else
-        look_from_afar(&casters, size_m, camera, view_from_world);
-    for (int k = 0; k < 3; k++) eye_ws[k] = -glm_vec3_dot(view_from_world[k], view_from_world[3]);
+        look_from_afar(&casters, size_m, &framing->camera, view);
+    for (int k = 0; k < 3; k++) framing->eye_ws[k] = -glm_vec3_dot(view[k], view[3]);
 }

@@ -48,20 +48,16 @@ static bool has_formats(const struct gn_frame *frame, enum gn_technique techniqu
                              &fell_back) != GN_MOMENTS_NONE;
 }
 
-static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
+static enum gn_technique technique_of(struct gn_frame *frame, const struct gn_frame_light *chosen,
                                       const struct gn_frame_opts *opts,
-                                      const struct gn_frame_light_opts *one,
                                       struct gn_warnings *warnings) {
-    const bool given = one->given & GN_LIGHT_TECHNIQUE;
-    const struct gn_light *light = &frame->scene->lights[index];
-    struct gn_light_note *note = &frame->notes.lights.at[index];
+    const bool given = GN_LIGHT_HAS(gn_frame_own_opts(opts, chosen->light), technique);
+    const enum gn_technique technique = chosen->opts.technique;
+    const struct gn_light *light = &frame->scene->lights[chosen->light];
+    struct gn_light_note *note = &frame->notes.lights.at[chosen->light];
     if (note->unknown && !given && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
         gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a known technique; using pcf",
                 light->name, light->technique);
-    bool own = note->technique == GN_TECHNIQUE_NONE || !opts->shadow.technique_given;
-    enum gn_technique technique = given ? one->technique
-                                  : own ? note->technique
-                                        : opts->shadow.technique;
     if (!has_formats(frame, technique)) {
         const enum gn_technique instead = gn_techniques[technique].fallback
                                               ? (enum gn_technique)gn_techniques[technique].fallback
@@ -82,11 +78,9 @@ static enum gn_technique technique_of(struct gn_frame *frame, uint32_t index,
 }
 
 static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *opts,
-                            const struct gn_frame_light_opts *one, struct gn_frame_light *light,
-                            struct gn_warnings *warnings) {
-    const bool given = one->given & GN_LIGHT_FORMAT;
-    const enum gn_encoding encoding = given ? one->encoding : opts->shadow.encoding;
-    const enum gn_moments moments = given ? one->moments : opts->shadow.moments;
+                            struct gn_frame_light *light, struct gn_warnings *warnings) {
+    const enum gn_encoding encoding = GN_MAP_FORMAT_ENCODING(light->opts.map_format);
+    const enum gn_moments moments = GN_MAP_FORMAT_MOMENTS(light->opts.map_format);
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
     uint32_t *said = &frame->notes.lights.at[light->light].said;
     bool fell_back, moments_fell_back = false;
@@ -111,9 +105,8 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
                 gn_encodings[encoding].name, gn_encodings[light->encoding].name);
     if (light->encoding != GN_ENCODING_MASK) return;
     if (!opts->shadow.planar_in_stencil) {
-        const float radius =
-            one->given & GN_LIGHT_RADIUS ? one->radius : frame->scene->lights[light->light].radius;
-        if (opts->shadow.planar_points && radius > 0.0f) light->encoding = GN_ENCODING_MEAN;
+        if (opts->shadow.planar_points && light->opts.radius > 0.0f)
+            light->encoding = GN_ENCODING_MEAN;
         return;
     }
     if (!frame->plane.blended)
@@ -204,22 +197,11 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     frame->light_count = 0;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
         if (visibility ? (int)i != opts->debug.light : opts->debug.aov != GN_AOV_COLOR) continue;
-        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, i);
-        if (one.given & GN_LIGHT_OFF) continue;
-        struct gn_frame_light l = {.light = i,
-                                   .technique = technique_of(frame, i, opts, &one, warnings)};
-        l.strength = one.given & GN_LIGHT_STRENGTH ? one.strength
-                     : opts->shadow.strength_given ? opts->shadow.strength
-                                                   : frame->scene->lights[i].shadow_strength;
-        const float specular = one.given & GN_LIGHT_SPECULAR ? one.specular
-                               : opts->shadow.specular_given
-                                   ? opts->shadow.specular
-                                   : frame->scene->lights[i].shadow_specular;
-        l.specular = specular >= 0.0f ? specular : 1.0f - l.strength;
-        const float *color = one.given & GN_LIGHT_COLOR ? one.color : pose->lights[i].color;
-        memcpy(l.color, color, sizeof l.color);
-        l.illuminance = illuminance(pose, i, l.color);
-        if (casts_shadow(&l)) choose_encoding(frame, opts, &one, &l, warnings);
+        struct gn_frame_light l = {.light = i, .opts = gn_frame_light_opts(frame, pose, opts, i)};
+        if (!l.opts.on) continue;
+        l.technique = technique_of(frame, &l, opts, warnings);
+        l.illuminance = illuminance(pose, i, l.opts.color);
+        if (casts_shadow(&l)) choose_encoding(frame, opts, &l, warnings);
         if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */
             const uint32_t least = find_weakest(frame, false);
             struct gn_frame_light *at = &frame->lights[least];
@@ -240,8 +222,9 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     bound_triangles(frame, opts, warnings);
     frame->shadow_specular = false;
     for (uint32_t i = 0; i < frame->light_count; i++)
-        frame->shadow_specular |= casts_shadow(&frame->lights[i]) &&
-                                  frame->lights[i].specular != 1.0f - frame->lights[i].strength;
+        frame->shadow_specular |=
+            casts_shadow(&frame->lights[i]) &&
+            frame->lights[i].opts.specular != 1.0f - frame->lights[i].opts.strength;
     /* those that cast shadows first, else in the scene's order; gn_frame_group_lights() then orders
      * them within their groups, planar ones as the last of those that cast shadows */
     struct gn_frame_light open[GN_ALL_LIGHTS_MAX];

@@ -40,10 +40,9 @@ static struct gn_pass *begin_pass(struct gn_frame *frame, enum gn_pass_kind kind
     return pass;
 }
 
-bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique technique,
-                         bool faces_given, enum gn_cast_faces faces) {
+bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique technique, int faces) {
     return !gn_techniques[technique].on_plane &&
-           (faces_given ? faces == GN_CAST_MIDDLE : frame->has_middle);
+           (faces > 0 ? faces == 1 + GN_CAST_MIDDLE : frame->has_middle);
 }
 
 /* Draws the casters of the pass that was begun last, and ends it. Those that cast by their middle
@@ -52,7 +51,7 @@ bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique techniq
 static void draw_casters(struct gn_frame *frame, const struct gn_pose *pose,
                          struct gn_selection *casters) {
     const struct gn_shadow_view *view = casters->view;
-    if (gn_frame_has_middle(frame, view->technique, view->faces_given, view->faces)) {
+    if (gn_frame_has_middle(frame, view->technique, view->faces_given ? 1 + (int)view->faces : 0)) {
         struct gn_pass *backs = &frame->passes.at[frame->passes.count - 1];
         struct gn_pass map = *backs;
         const size_t used = strlen(backs->label);

@@ -32,22 +32,18 @@ void gn_frame_learn_scene(struct gn_frame *frame) {
 }
 
 void gn_frame_renew_notices(struct gn_frame *frame, const struct gn_frame_opts *opts) {
-    const struct gn_frame_light_opts *lights = opts->shadow.lights;
+    const struct gn_frame_shadow_opts *shadow = &opts->shadow;
+    const uint64_t of_all = gn_hash(GN_HASH_INIT, &shadow->any, sizeof shadow->any);
     const uint32_t about[GN_NOTICE_ABOUT] = {
-        opts->shadow.technique_given,
-        opts->shadow.technique,
-        opts->shadow.encoding,
         opts->debug.aov,
-        opts->output_float,
-        opts->output_linear,
-        opts->msaa,
+        opts->output.floats,
+        opts->output.linear,
+        opts->output.msaa,
         opts->tone,
         opts->background,
-        opts->shadow.planar_in_stencil,
-        opts->shadow.moments,
-        opts->shadow.map_px,
-        (uint32_t)(opts->shadow.maps_bytes >> 20),
-        (uint32_t)gn_hash(GN_HASH_INIT, lights, opts->shadow.light_count * sizeof *lights)};
+        shadow->planar_in_stencil,
+        (uint32_t)(shadow->maps_bytes >> 20),
+        (uint32_t)gn_hash(of_all, shadow->lights, shadow->light_count * sizeof *shadow->lights)};
     if (memcmp(frame->notes.about, about, sizeof about) == 0) return;
     memcpy(frame->notes.about, about, sizeof about);
     frame->notes.said = 0;

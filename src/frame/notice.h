@@ -24,7 +24,7 @@ enum gn_notice {
     GN_NOTICE_TONE,
     GN_NOTICE_TRANSPARENT,
 };
-enum { GN_NOTICE_ABOUT = 14 }; /* options that a warning may be about */
+enum { GN_NOTICE_ABOUT = 9 }; /* options that a warning may be about */
 
 struct gn_frame;
 struct gn_frame_opts;

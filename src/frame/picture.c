@@ -8,12 +8,8 @@
 #include <string.h>
 
 #include "blocks.glsl"
+#include "core/srgb.h"
 #include "frame/private.h"
-
-float gn_frame_srgb_from_linear(float c) {
-    c = glm_clamp_zo(c);
-    return c <= 0.0031308f ? 12.92f * c : 1.055f * powf(c, 1.0f / 2.4f) - 0.055f;
-}
 
 /* ---- blended items ---- */
 
@@ -164,7 +160,7 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
         background_of(frame, opts, background);
         for (int k = 0; k < 3; k++) {
             const float color = aov == GN_AOV_COLOR ? background[k] : aov_clear[aov];
-            pass->clear.color[k] = encode ? gn_frame_srgb_from_linear(color) : color;
+            pass->clear.color[k] = encode ? gn_srgb_encode(color) : color;
         }
         pass->clear.color[3] = 1.0f;
     }

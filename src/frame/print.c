@@ -36,7 +36,7 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
         fprintf(to, ", %s", gn_moments[key->moments].name);
     }
     for (int i = 0; i < GN_FEATURE_COUNT; i++)
-        if (key->features >> gn_features[i].bit & 1) fprintf(to, " +%s", gn_features[i].name);
+        if (key->features >> i & 1) fprintf(to, " +%s", gn_features[i].name);
     for (int i = 0; i < key->light_count; i++) {
         const struct gn_light_key *light = &key->lights[i];
         fprintf(to, " %s", gn_light_types[light->type].name);

@@ -19,11 +19,7 @@ struct gn_frame_light {
     enum gn_encoding encoding;
     enum gn_moments moments; /* of a technique that filters its map */
     enum gn_slide slide;
-    bool slide_as_picture;
-    float slide_far_m; /* 0: it does not end */
-    float color[3];    /* as in gn_light */
-    float strength;
-    float specular;    /* share of highlights that its shadow leaves */
+    struct gn_light_opts opts; /* what holds for it */
     float illuminance; /* at the scene's centre, lux; the weakest are dropped over the limit */
     uint32_t cascades; /* 1: one map. Known after gn_frame_fit_shadows() */
 };
@@ -191,9 +187,6 @@ void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
 GN_FRAME_STEPS(X)
 #undef X
 
-/* Of 0 to 1; others are clamped (picture.c). */
-float gn_frame_srgb_from_linear(float c);
-
 /* ---- filter.c, budget.c, gather.c: what belongs to the maps ---- */
 
 /* The passes that turn a map into what shaders read; none where that is the map. */
@@ -280,9 +273,9 @@ struct gn_map_need { /* of a light */
     bool paged;               /* drawn in pages */
     bool backs;               /* and the far sides of casters beside it */
 };
-/* Whether casters may cast by their middle (GN_CAST_MIDDLE): then passes draw their far sides. */
-bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique technique,
-                         bool faces_given, enum gn_cast_faces faces);
+/* Whether casters may cast by their middle (GN_CAST_MIDDLE): then passes draw their far sides.
+ * faces: as in gn_light_opts. */
+bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique technique, int faces);
 /* Lights share pages of one kind, far sides, and the textures between the steps of a filter. */
 uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count);
 /* Halves map_px of the maps, by slot, until they take at most so many bytes; 0: no limit. */
@@ -291,9 +284,8 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
 
 /* ---- opts.c ---- */
 
-/* Of a light with these options of its own: radius of its filter; 0: the technique's. */
-float gn_frame_filter_radius_px(const struct gn_frame_opts *opts,
-                                const struct gn_frame_light_opts *one);
+/* What is set for that light alone; never NULL. */
+const struct gn_light_opts *gn_frame_own_opts(const struct gn_frame_opts *opts, uint32_t light);
 
 /* ---- constants.c ---- */
 
@@ -336,6 +328,10 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
 /* eye.c: clip_from_world of the camera, its position and their constants. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,
                   const struct gn_frame_opts *opts, float (*constants)[4]);
+/* light_eye.c: a camera in a light's place, a spot or a directional one, that shows its cone, or
+ * what casts. */
+void gn_frame_light_camera(const struct gn_pose *pose, uint32_t light, float aspect,
+                           struct gn_framing *framing);
 /* The same camera at another pose. */
 void gn_frame_eye_at(const struct gn_frame *frame, const struct gn_pose *pose,
                      const struct gn_frame_opts *opts, struct gn_eye *eye);

@@ -20,13 +20,6 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
         const struct gn_light *l = &frame->scene->lights[light->light];
         light->slide = opts->debug.aov == GN_AOV_COLOR ? gn_slide_of(l) : GN_SLIDE_NONE;
         if (light->slide == GN_SLIDE_NONE) continue;
-        const struct gn_frame_light_opts one = gn_frame_light_opts(opts, light->light);
-        light->slide_as_picture =
-            one.given & GN_LIGHT_SLIDE ? one.slide_as_picture != 0 : opts->shadow.slide_as_picture;
-        const float far_m = one.given & GN_LIGHT_SLIDE_FAR ? one.slide_far_m
-                            : opts->shadow.slide_far_given ? opts->shadow.slide_far_m
-                                                           : -1.0f;
-        light->slide_far_m = far_m >= 0.0f ? far_m : l->slide_far_m;
         uint32_t before = 0; /* lights with a slide, in the scene's order */
         for (uint32_t k = 0; k < frame->light_count; k++)
             before += frame->lights[k].light < light->light &&
@@ -58,14 +51,14 @@ void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose
             &scene->pictures.images[scene->pictures.textures[scene->lights[light].slide].image];
         struct gn_slide_view view;
         const float aspect = (float)image->width_px / (float)image->height_px;
-        gn_slide_build(pose, light, frame->lights[i].slide_as_picture ? aspect : 0.0f, &view);
+        gn_slide_build(pose, light, frame->lights[i].opts.slide_as_picture ? aspect : 0.0f, &view);
         memcpy(c[SLIDE_U], view.u, sizeof view.u);
         memcpy(c[SLIDE_V], view.v, sizeof view.v);
         memcpy(c[SLIDE_W], view.w, sizeof view.w);
         c[SLIDE_PLACE][0] = shown_px(frame, image->width_px, image);
         c[SLIDE_PLACE][1] = shown_px(frame, image->height_px, image);
         c[SLIDE_PLACE][2] = view.near_m;
-        c[SLIDE_PLACE][3] = frame->lights[i].slide_far_m;
+        c[SLIDE_PLACE][3] = frame->lights[i].opts.slide_far_m;
         c += SLIDE_SIZE;
     }
 }

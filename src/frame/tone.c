@@ -14,7 +14,7 @@ static enum gn_tone tone_of_scene(const struct gn_scene *scene,
 void gn_frame_choose_tone(struct gn_frame *frame, const struct gn_frame_opts *opts,
                           struct gn_warnings *warnings) {
     const bool measured =
-        opts->debug.aov != GN_AOV_COLOR || opts->output_linear || opts->output_float;
+        opts->debug.aov != GN_AOV_COLOR || opts->output.linear || opts->output.floats;
     frame->plan.tone = measured ? GN_TONE_NONE
                        : opts->tone != GN_TONE_AUTO
                            ? opts->tone

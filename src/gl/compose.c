@@ -31,24 +31,11 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
                         "precision highp usampler2D;\n");
     for (int i = 0; i < GN_FEATURE_COUNT; i++) {
         const char *name = gn_features[i].glsl;
-        bool on = key->features >> gn_features[i].bit & 1;
+        bool on = key->features >> i & 1;
         gn_gl_text_add(out, "const bool %s = %s;\n", name, on ? "true" : "false");
         if (on) gn_gl_text_add(out, "#define WITH_%s 1\n", name);
     }
-    /* EACH_TEXTURE(F) calls F(v_uv_name, SLOT_NAME, NAME_UV1) for each row of scene/material.h that
-     * the program has. */
-    const struct gn_texture_slot_row *rows = gn_texture_slots;
-    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
-        gn_gl_text_add(out, "const int SLOT_%s = %d;\n", rows[i].glsl, i);
-    gn_gl_text_add(out, "const int SLOT_COUNT = %d;\n", GN_TEXTURE_SLOT_COUNT);
     gn_gl_text_add(out, "const int DELTAS_WIDTH = %d;\n", GN_DELTAS_WIDTH);
-    gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
-    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)
-        if (key->features >> (GN_FEATURE_FIRST_TEXTURE + i) & 1)
-            gn_gl_text_add(out, " F(v_uv_%s, SLOT_%s, %s_UV1)", rows[i].name, rows[i].glsl,
-                           rows[i].glsl);
-    gn_gl_text_add(out, "\n");
-
     if (key->shadow_count) gn_gl_text_add(out, "#define WITH_SHADOWS 1\n");
     gn_gl_text_add(out, "const float ENVIRONMENT_ROUGHEST = %d.0;\n", GN_ENVIRONMENT_LEVELS - 1);
     gn_gl_text_add(out, "const int LIGHT_COUNT = %d;\nconst int SHADOW_COUNT = %d;\n",
@@ -58,6 +45,63 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     for (int i = 0; i < GN_AOV_COUNT; i++)
         gn_gl_text_add(out, "const int %s = %d;\n", aov_names[i], i);
     gn_gl_text_add(out, "const int AOV = %d;\n", key->aov);
+}
+
+/* The rows of scene/material.h. EACH_TEXTURE(F) calls F(u_texture_name, v_uv_name, SLOT_NAME,
+ * NAME_UV1) for each texture that the program has. TEXEL_NAME is a texel of one, or 1 without it,
+ * and FACTOR_NAME a factor of a layer. */
+static void add_material(const struct gn_program_key *key, struct gn_gl_text *out) {
+    struct gn_gl_text each = {0};
+    for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++) {
+        const char *glsl = gn_texture_slots[i].glsl, *name = gn_texture_slots[i].name;
+        gn_gl_text_add(out, "const int SLOT_%s = %d;\n#define TEXEL_%s ", glsl, i, glsl);
+        if (!(key->features >> (GN_FEATURE_FIRST_TEXTURE + i) & 1)) {
+            gn_gl_text_add(out, "vec4(1.0)\n");
+            continue;
+        }
+        gn_gl_text_add(out, "texture(u_texture_%s, v_uv_%s)\n", name, name);
+        gn_gl_text_add(&each, " F(u_texture_%s, v_uv_%s, SLOT_%s, %s_UV1)", name, name, glsl, glsl);
+    }
+    gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
+    if (each.size > 0) gn_gl_text_add_bytes(out, each.data, each.size);
+    gn_gl_text_finish(&each);
+    gn_gl_text_add(out, "\nconst int SLOT_COUNT = %d;\nconst int LAYER_COUNT = %d;\n",
+                   GN_TEXTURE_SLOT_COUNT, GN_LAYER_COUNT);
+#define GN_X(LAYER, NAME, first, components, ...)                                                  \
+    gn_gl_text_add(out, "#define FACTOR_%s u_factors[%d].%.*s\n", #NAME, 1 + GN_LAYER_##LAYER,     \
+                   components, &"xyzw"[first]);
+    GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+#undef GN_X
+}
+
+/* Calls of the functions that each layer defines (lib/shade.glsl), from the base upwards; and the
+ * files of the program's layers. */
+static bool add_layers(struct gn_gl_source *source, const struct gn_program_key *key,
+                       struct gn_gl_text *out, struct gn_err *err) {
+    static const struct {
+        uint64_t feature;
+        const char *name, *file;
+    } layers[GN_LAYER_COUNT] = {
+#define GN_X(NAME, name, ...) {GN_FEATURE(NAME), name, "layer/" name ".glsl"},
+        GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
+    };
+    static const char *const calls[][3] = {{"LAYERS_BEGIN", "begin", "(smooth_normal, s)"},
+                                           {"LAYERS_AMBIENT", "ambient", "(s)"},
+                                           {"LAYERS_LIGHT", "light", "(s, l, seen)"},
+                                           {"LAYERS_END", "end", "(s, color)"}};
+    for (size_t c = 0; c < sizeof calls / sizeof *calls; c++) {
+        gn_gl_text_add(out, "#define %s%s", calls[c][0], calls[c][2]);
+        for (int i = 0; i < GN_LAYER_COUNT; i++)
+            if (key->features & layers[i].feature)
+                gn_gl_text_add(out, " %s_%s%s;", layers[i].name, calls[c][1], calls[c][2]);
+        gn_gl_text_add(out, "\n");
+    }
+    for (int i = 0; i < GN_LAYER_COUNT; i++)
+        if (key->features & layers[i].feature &&
+            !gn_gl_source_add(source, layers[i].file, out, err))
+            return false;
+    return true;
 }
 
 /* A lookup is the code for one technique, encoding and moments. Its number, the suffix, is that of
@@ -293,6 +337,7 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
     const bool lit = key->kind == GN_PROGRAM_LIT || key->kind == GN_PROGRAM_AOV;
     const bool filter = key->kind == GN_PROGRAM_FILTER && fragment;
     add_constants(key, out);
+    add_material(key, out);
     if (!gn_gl_source_add(&source, "blocks.glsl", out, err)) return false;
     if (lit) add_light_flags(key, out);
     if (shader == GN_GL_VERTEX) {
@@ -312,6 +357,8 @@ bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn
         gn_gl_text_add(out, "\n");
     }
     if (lit && fragment && !add_lights(&source, key, out, err)) return false;
+    if (key->kind == GN_PROGRAM_LIT && fragment && !add_layers(&source, key, out, err))
+        return false;
     if (program->reads & GN_PROGRAM_ENCODING && fragment &&
         !gn_gl_source_add(&source, gn_encodings[key->encoding].file, out, err))
         return false;
@@ -347,7 +394,7 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
     }
     const char *separator = " ";
     for (int i = 0; i < GN_FEATURE_COUNT; i++) {
-        if (!(key->features >> gn_features[i].bit & 1)) continue;
+        if (!(key->features >> i & 1)) continue;
         append_word(out, size, separator, gn_features[i].glsl);
         separator = "|";
     }

@@ -1,24 +1,19 @@
 /* Smaller pictures by the mean of 2 x 2 texels, in linear light where they are sRGB. For pictures
  * larger than the GPU accepts, and for all levels with a software GPU: llvmpipe takes thirty times
  * as long, most of it to compile. No GL. */
-#include <math.h>
 #include <stdlib.h>
 
+#include "core/srgb.h"
 #include "gl/private.h"
 
 enum { STEPS = sizeof((struct gn_gl_curve *)0)->encode - 1 };
 
 void gn_gl_curve_init(struct gn_gl_curve *curve) {
     for (int i = 0; i < 256; i++) {
-        const float code = (float)i / 255;
-        const float light = code <= 0.04045f ? code / 12.92f : powf((code + 0.055f) / 1.055f, 2.4f);
-        curve->decode[i] = light * STEPS / 4;
+        curve->decode[i] = gn_srgb_decode((float)i / 255) * STEPS / 4;
     }
     for (int i = 0; i <= STEPS; i++) {
-        const float light = (float)i / STEPS;
-        const float code =
-            light <= 0.0031308f ? 12.92f * light : 1.055f * powf(light, 1 / 2.4f) - 0.055f;
-        curve->encode[i] = (uint8_t)(code * 255 + 0.5f);
+        curve->encode[i] = (uint8_t)(gn_srgb_encode((float)i / STEPS) * 255 + 0.5f);
     }
 }
 

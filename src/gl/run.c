@@ -33,7 +33,7 @@ bool gn_gl_program_prepare(struct gn_gl *gl, const struct gn_program_key *key, s
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     const uint64_t made = gl->programs.made;
     if (plan->scene != gl->scene.scene) return gn_fail(err, "the plan's scene is not loaded");
-    /* a guard: gn_stage_plan() has proved its plan, and without prove_later all was at create */
+    /* a guard: gn_view_plan() has proved its plan, and without prove_later all was at create */
     if (!gn_gl_prove(gl, plan))
         return gn_fail(err,
                        "this GPU fails at a capability it claims; try again, or use --without");

@@ -52,9 +52,9 @@ struct gn_gl_upload {
     struct gn_gl_picture picture;
     bool no_memory; /* for a picture's smaller levels */
 };
-enum { /* vectors of a material in uniforms: u_uv, then u_factors (lib/vertex.glsl, lit.frag) */
+enum { /* vectors of a material in uniforms: u_uv, then u_factors (lib/vertex.glsl, surface.glsl) */
        GN_GL_TRANSFORMS = 2 * GN_TEXTURE_SLOT_COUNT,
-       GN_GL_FACTORS = 2,
+       GN_GL_FACTORS = 1 + GN_LAYER_COUNT,
        GN_GL_UV_COUNT = GN_GL_TRANSFORMS + GN_GL_FACTORS,
 };
 struct gn_gl_scene {

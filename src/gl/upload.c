@@ -139,10 +139,7 @@ static void fill_set(const struct gn_material *m, float (*set)[4]) {
     float *factors = set[GN_GL_TRANSFORMS];
     memcpy(factors, m->f0, sizeof(vec3));
     factors[3] = m->lightmap_intensity;
-    factors[4] = m->coat;
-    factors[5] = m->coat_roughness;
-    factors[6] = m->transmission;
-    factors[7] = 0.0f;
+    memcpy(factors + 4, m->factors, sizeof m->factors);
 }
 
 /* Materials with equal transforms, as nearly all have, share one set, so that a program keeps its

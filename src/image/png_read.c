@@ -33,6 +33,14 @@ bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err
     return true;
 }
 
+bool gn_png_has_alpha(const uint8_t *data, size_t size) {
+    enum { COLOR_TYPE = 25, WITH_ALPHA = 4 };
+    for (size_t at = 8; size - at >= 12 && memcmp(data + at + 4, "IDAT", 4) != 0;
+         at += 12 + big_endian(data + at))
+        if (memcmp(data + at + 4, "tRNS", 4) == 0) return true;
+    return data[COLOR_TYPE] & WITH_ALPHA;
+}
+
 uint64_t gn_png_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]) {
     (void)data;
     (void)size;

@@ -18,6 +18,8 @@ bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t
 /* The same in 16 bits each, of the machine's byte order; of 8 bits v becomes 257 v. */
 bool gn_png_read_16(const uint8_t *data, size_t size, const uint32_t px[2], uint16_t *rgba,
                     struct gn_err *err);
+/* Of a PNG whose size was read: it has a channel of alpha, or colours that are transparent. */
+bool gn_png_has_alpha(const uint8_t *data, size_t size);
 bool gn_jpeg_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
 bool gn_jpeg_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
                   struct gn_err *err);

@@ -3,14 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-static float linear_of(uint8_t byte) {
-    const float c = (float)byte / 255.0f;
-    return c <= .04045f ? c / 12.92f : powf((c + .055f) / 1.055f, 2.4f);
-}
-
-static float encoded_of(float linear) {
-    return linear <= .0031308f ? 12.92f * linear : 1.055f * powf(linear, 1 / 2.4f) - .055f;
-}
+#include "core/srgb.h"
 
 /* How much of pixel i lies in low .. high. */
 static double covered(uint32_t i, double low, double high) {
@@ -48,7 +41,7 @@ void gn_picture_scale(const uint8_t *rgba, const uint32_t from[2], enum gn_scale
                       uint8_t *out, const uint32_t to[2]) {
     float table[256];
     for (int i = 0; i < 256; i++)
-        table[i] = kind == GN_SCALE_COLOR ? linear_of((uint8_t)i) : (float)i / 255.0f;
+        table[i] = kind == GN_SCALE_COLOR ? gn_srgb_decode((float)i / 255.0f) : (float)i / 255.0f;
     for (uint32_t y = 0; y < to[1]; y++)
         for (uint32_t x = 0; x < to[0]; x++) {
             const uint32_t at[] = {x, y};
@@ -61,7 +54,7 @@ void gn_picture_scale(const uint8_t *rgba, const uint32_t from[2], enum gn_scale
             average(rgba, from, table, low, high, c);
             if (kind == GN_SCALE_NORMALS) normalize(c);
             for (int k = 0; k < 4; k++) {
-                const float value = k < 3 && kind == GN_SCALE_COLOR ? encoded_of(c[k]) : c[k];
+                const float value = k < 3 && kind == GN_SCALE_COLOR ? gn_srgb_encode(c[k]) : c[k];
                 out[4 * ((size_t)y * to[0] + x) + (size_t)k] =
                     (uint8_t)lrintf(255 * fminf(fmaxf(value, 0), 1));
             }

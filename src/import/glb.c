@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "core/disk.h"
 #include "import/import.h"
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "glTF buffers are little endian");
@@ -104,26 +104,15 @@ json_t *gn_glb_extension(struct gn_glb *glb, const char *name) {
     return object;
 }
 
-static bool write_bytes(int fd, const void *data, size_t size) {
-    const uint8_t *at = data;
-    while (size > 0) {
-        ssize_t wrote = write(fd, at, size);
-        if (wrote < 0 && errno == EINTR) continue;
-        if (wrote <= 0) return false;
-        at += wrote;
-        size -= (size_t)wrote;
-    }
-    return true;
-}
-
 static size_t padded_size(size_t size) { return (size + 3) & ~(size_t)3; }
 
 static bool write_chunk(int fd, const char type[4], const void *data, size_t size, char pad) {
     uint32_t head[2] = {(uint32_t)padded_size(size)};
     char pads[3] = {pad, pad, pad};
     memcpy(&head[1], type, 4);
-    return write_bytes(fd, head, sizeof head) && write_bytes(fd, data, size) &&
-           write_bytes(fd, pads, padded_size(size) - size);
+    return gn_disk_write_all(&gn_disk, fd, head, sizeof head) &&
+           gn_disk_write_all(&gn_disk, fd, data, size) &&
+           gn_disk_write_all(&gn_disk, fd, pads, padded_size(size) - size);
 }
 
 bool gn_glb_write(struct gn_glb *glb, int fd, struct gn_err *err) {
@@ -137,7 +126,8 @@ bool gn_glb_write(struct gn_glb *glb, int fd, struct gn_err *err) {
     bool ok = false;
     if (total > UINT32_MAX)
         gn_fail(err, "too large for a .glb (4 GB)");
-    else if (write_bytes(fd, head, sizeof head) && write_chunk(fd, "JSON", text, length, ' ') &&
+    else if (gn_disk_write_all(&gn_disk, fd, head, sizeof head) &&
+             write_chunk(fd, "JSON", text, length, ' ') &&
              (!bin || write_chunk(fd, "BIN", glb->bin, glb->size, 0)))
         ok = true;
     else if (errno == EFBIG)

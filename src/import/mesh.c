@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/srgb.h"
 #include "import/private.h"
 
 static float finite_or_0(float value) { return isfinite(value) ? value : 0.0f; }
@@ -47,9 +48,7 @@ static float clamp_unit(float value) { return value > 0.0f ? fminf(value, 1.0f) 
 
 /* Colours of the other formats are sRGB, glTF's linear (IEC 61966-2-1). */
 static uint16_t linear_from_srgb(float value) {
-    float c = clamp_unit(value);
-    return (uint16_t)lrintf(65535.0f *
-                            (c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f)));
+    return (uint16_t)lrintf(65535.0f * gn_srgb_decode(clamp_unit(value)));
 }
 
 static int add_colors(struct gn_import *import, const struct gn_import_shape *shape) {

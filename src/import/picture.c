@@ -1,10 +1,10 @@
 /* Images are copied unchanged. Only alpha is examined, and a separate opacity map is merged into
  * the base image's alpha, where glTF expects it. */
-#include <png.h>
 #include <stdlib.h>
 #include <string.h>
-#include <turbojpeg.h>
 
+#include "image/read.h"
+#include "image/write.h"
 #include "import/private.h"
 
 enum { MOST_TEXELS = 67108864 };
@@ -22,49 +22,22 @@ const char *gn_import_picture_type(const struct gn_bytes *picture) {
     return NULL;
 }
 
-static bool fits_limit(uint64_t width, uint64_t height) {
-    return width && height && width * height <= MOST_TEXELS;
-}
-
-static bool read_png(const struct gn_bytes *picture, struct pixels *out) {
-    png_image png = {.version = PNG_IMAGE_VERSION};
-    bool ok = png_image_begin_read_from_memory(&png, picture->data, picture->size) &&
-              fits_limit(png.width, png.height);
-    if (ok) {
-        *out = (struct pixels){.width_px = png.width,
-                               .height_px = png.height,
-                               .has_alpha = (png.format & PNG_FORMAT_FLAG_ALPHA) != 0};
-        png.format = PNG_FORMAT_RGBA;
-        out->rgba = gn_import_alloc(4 * (size_t)png.width * png.height);
-        ok = png_image_finish_read(&png, NULL, out->rgba, 0, NULL);
-    }
-    png_image_free(&png);
-    return ok;
-}
-
-static bool read_jpeg(const struct gn_bytes *picture, struct pixels *out) {
-    tjhandle jpeg = tjInitDecompress();
-    int width = 0, height = 0, sampling, space;
-    bool ok = jpeg &&
-              tjDecompressHeader3(jpeg, picture->data, picture->size, &width, &height, &sampling,
-                                  &space) == 0 &&
-              width > 0 && height > 0 && fits_limit((uint64_t)width, (uint64_t)height);
-    if (ok) {
-        *out = (struct pixels){.width_px = (uint32_t)width, .height_px = (uint32_t)height};
-        out->rgba = gn_import_alloc(4 * (size_t)width * (size_t)height);
-        ok = tjDecompress2(jpeg, picture->data, picture->size, out->rgba, width, 0, height,
-                           TJPF_RGBA, TJFLAG_LIMITSCANS | TJFLAG_STOPONWARNING) == 0;
-    }
-    if (jpeg) tjDestroy(jpeg);
-    return ok;
-}
-
 static bool read_pixels(const struct gn_bytes *picture, struct pixels *out) {
-    *out = (struct pixels){0};
+    struct gn_err unused;
+    uint32_t px[2];
+    const uint8_t *data = picture->data;
     const char *type = gn_import_picture_type(picture);
-    bool ok =
-        type && (strcmp(type, "image/png") == 0 ? read_png(picture, out) : read_jpeg(picture, out));
-    if (ok) return true;
+    const bool is_png = type && strcmp(type, "image/png") == 0;
+    *out = (struct pixels){0};
+    if (!type || !(is_png ? gn_png_size : gn_jpeg_size)(data, picture->size, px, &unused) ||
+        px[0] == 0 || px[1] == 0 || (uint64_t)px[0] * px[1] > MOST_TEXELS)
+        return false;
+    out->width_px = px[0];
+    out->height_px = px[1];
+    out->has_alpha = is_png && gn_png_has_alpha(data, picture->size);
+    out->rgba = gn_import_alloc(4 * (size_t)px[0] * px[1]);
+    if ((is_png ? gn_png_read : gn_jpeg_read)(data, picture->size, px, out->rgba, &unused))
+        return true;
     free(out->rgba);
     *out = (struct pixels){0};
     return false;
@@ -106,15 +79,10 @@ bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes 
             both.rgba[4 * i + 3] =
                 alpha.rgba[4 * (ay * alpha.width_px + ax) + (alpha.has_alpha ? 3 : 0)];
         }
-        png_image header = {.version = PNG_IMAGE_VERSION,
-                            .width = both.width_px,
-                            .height = both.height_px,
-                            .format = PNG_FORMAT_RGBA,
-                            .flags = PNG_IMAGE_FLAG_FAST};
-        png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
-        png->data = gn_import_alloc(size);
-        ok = png_image_write_to_memory(&header, png->data, &size, 0, both.rgba, 0, NULL);
-        png->size = ok ? size : 0;
+        struct gn_err unused;
+        ok = gn_picture_encode_png_rgba(both.rgba, (int)both.width_px, (int)both.height_px, png,
+                                        &unused);
+        if (!ok) gn_bytes_finish(png);
         free(both.rgba);
     }
     free(alpha.rgba);

@@ -18,24 +18,25 @@ void gn_show_unready(struct gn_show *s) {
     s->ahead.keeps = s->ahead.idle = false;
 }
 
+static void forget_upload(struct gn_show *s) {
+    gn_view_stop(&s->scenes.view);
+    s->scenes.view.pose = NULL;
+    s->scenes.whole = false;
+}
+
 void gn_show_forget_work(struct gn_show *s) {
     gn_show_unready(s);
-    s->scenes.whole = false;
-    gn_frame_destroy(s->scenes.frame);
-    s->scenes.frame = NULL;
+    forget_upload(s);
     s->fade.prepared = false;
-    gn_frame_destroy(s->split.frame);
-    s->split.frame = NULL;
+    gn_view_stop(&s->split.view);
     gn_truth_drop(s);
 }
 
 void gn_show_drop_staged(struct gn_show *s) {
     if (s->stage.gl) gn_gl_stage(s->stage.gl, NULL);
-    gn_frame_destroy(s->scenes.frame);
+    forget_upload(s);
     gn_loaded_drop(s->scenes.staged);
-    s->scenes.frame = NULL;
     s->scenes.staged = NULL;
-    s->scenes.whole = false;
     s->scenes.looks.ready = 0;
 }
 
@@ -68,29 +69,24 @@ static void fail_reload(struct gn_show *s, const struct gn_err *err) {
 
 /* All that the mode can need, on this screen. */
 static const struct gn_plan *plan_mode(const struct gn_show *s, const struct gn_show_looks *looks,
-                                       struct gn_frame *frame, struct gn_pose *pose, int mode) {
-    const int variant = pose->variant;
-    const struct gn_frame_opts *now = &s->stage.frame_opts;
+                                       struct gn_view *view, int mode) {
+    const int variant = view->pose->at.variant;
     struct gn_frame_opts opts = looks->of[mode].frame_opts;
-    opts.width_px = now->width_px;
-    opts.height_px = now->height_px;
-    opts.turn_deg = now->turn_deg;
-    opts.unencoded = now->unencoded;
-    opts.msaa = now->msaa;
+    opts.output = s->stage.shown.opts.output;
     opts.all_seen = true;
-    opts.captions_later = true;
-    gn_pose_choose_variant(pose, looks->of[mode].variant);
-    const struct gn_plan *plan = gn_frame_build(frame, pose, &opts, NULL);
-    gn_pose_choose_variant(pose, variant);
+    opts.cover.captions_later = true;
+    gn_pose_choose_variant(view->pose, looks->of[mode].variant);
+    const struct gn_plan *plan = gn_view_build(view, s->stage.gl, &opts, NULL);
+    gn_pose_choose_variant(view->pose, variant);
     return plan;
 }
 
 /* wanted: the mode waits for it. True: it did a piece; false: nothing was left to do. */
-static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_frame **frame,
-                      struct gn_pose *pose, int mode, bool wanted) {
+static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_view *view,
+                      int mode, bool wanted) {
     struct gn_err err = {0};
     char text[sizeof err.text + 64];
-    const struct gn_plan *plan = plan_mode(s, looks, *frame, pose, mode);
+    const struct gn_plan *plan = plan_mode(s, looks, view, mode);
     switch (gn_gl_warm(s->stage.gl, plan, wanted, &err)) {
     case GN_GL_WARM_DONE:
         looks->made |= 1u << mode;
@@ -106,10 +102,7 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
         looks->made |= 1u << mode;
         fail_place(s, GN_KIOSK_MODE_FAILED, mode, text);
         return true;
-    case GN_GL_WARM_REBUILD:
-        gn_frame_destroy(*frame);
-        *frame = gn_frame_create(pose->scene, gn_gl_caps(s->stage.gl));
-        return true;
+    case GN_GL_WARM_REBUILD: gn_view_stop(view); return true;
     default: return true;
     }
 }
@@ -118,15 +111,12 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
  * that were not shown yet; for those that were as much as all else takes, or 1/16 of the machine's.
  */
 static void drop_programs(struct gn_show *s) {
-    struct gn_scene_limits limits;
-    struct gn_err unused = {0}; /* they were checked when the mode was looked at */
-    if (!gn_stage_limits(s->stage.settings, &limits, &unused)) return;
     const struct gn_gl_idle idle = gn_gl_idle_programs(s->stage.gl);
     const uint64_t all = gn_memory_allocated();
     /* a cold compiler takes more than it keeps: never less than a quarter */
     const uint64_t needed = all - (idle.bytes < all / 4 * 3 ? idle.bytes : all / 4 * 3);
     const uint64_t whole = 125; /* percent: what was measured may be less than what it is */
-    const uint64_t percent = gn_scene_limits_or_default(&limits).ahead_percent;
+    const uint64_t percent = gn_stage_limits(s->stage.settings).ahead_percent;
     struct gn_gl_idle most = {.bytes = (gn_memory_total_mb() << 20) / 16,
                               .ahead_bytes = needed / whole * percent};
     if (most.bytes < needed) most.bytes = needed;
@@ -140,15 +130,14 @@ static void drop_programs(struct gn_show *s) {
 static bool work_on_others(struct gn_show *s) {
     const int shown = s->kiosk.shown.mode;
     if (!s->ahead.keeps) {
-        gn_gl_keep_programs(s->stage.gl,
-                            plan_mode(s, &s->looks, s->stage.frame, &s->stage.pose, shown));
+        gn_gl_keep_programs(s->stage.gl, plan_mode(s, &s->looks, &s->stage.shown, shown));
         drop_programs(s);
         s->ahead.keeps = true;
     }
     for (int i = 1; i < s->modes.count; i++) {
         const int mode = (shown + i) % s->modes.count;
         if (s->looks.made >> mode & 1) continue;
-        if (!warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, mode, false)) continue;
+        if (!warm_mode(s, &s->looks, &s->stage.shown, mode, false)) continue;
         drop_programs(s);
         return true;
     }
@@ -175,7 +164,7 @@ void gn_show_stage_reload(struct gn_show *s, const struct gn_stage_look *look) {
     }
     scenes->looks.of[0] = *look;
     scenes->looks.ready = 0;
-    if (look->clips != scenes->staged->pose.clips)
+    if (look->clips != scenes->staged->pose.at.clips)
         gn_pose_choose(&scenes->staged->pose, look->clips);
     gn_pose_choose_variant(&scenes->staged->pose, look->variant);
     s->ahead.idle = false;
@@ -191,14 +180,11 @@ void gn_show_take_staged(struct gn_show *s) {
     struct gn_loaded *staged = scenes->staged;
     const struct gn_loaded shown = {.scene = stage->scene, .pose = stage->pose};
     gn_truth_drop(s); /* both are of the other scene */
-    gn_frame_destroy(s->split.frame);
-    s->split.frame = NULL;
-    if (stage->gl) {
-        gn_gl_stage_show(stage->gl);
-        gn_frame_destroy(stage->frame);
-        stage->frame = scenes->frame;
-        scenes->frame = NULL;
-    }
+    gn_view_stop(&s->split.view);
+    gn_view_stop(&stage->shown);
+    if (stage->gl) gn_gl_stage_show(stage->gl);
+    stage->shown.builder = scenes->view.builder;
+    scenes->view.builder = NULL;
     stage->scene = staged->scene;
     stage->pose = staged->pose;
     staged->scene = shown.scene;
@@ -215,12 +201,12 @@ static bool work_on_staged(struct gn_show *s) {
     if (!staged) return false;
     if (scenes->whole)
         return !(scenes->looks.ready >> mode & 1) &&
-               warm_mode(s, &scenes->looks, &scenes->frame, &staged->pose, mode, true);
+               warm_mode(s, &scenes->looks, &scenes->view, mode, true);
 
     /* upload it; after a lost context the upload begins again */
-    if (!scenes->frame) {
+    if (!scenes->view.pose) {
         gn_gl_stage(s->stage.gl, staged->scene);
-        scenes->frame = gn_frame_create(staged->scene, gn_gl_caps(s->stage.gl));
+        scenes->view.pose = &staged->pose;
     } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &scenes->whole, &err)) {
         const int number = staged->number;
         if (number == GN_SHOW_RELOAD) {
@@ -249,8 +235,7 @@ static bool work_once(struct gn_show *s) {
     }
     if (work_on_staged(s)) return true;
     const int wanted = s->kiosk.wanted.mode;
-    if (!(s->looks.ready >> wanted & 1) &&
-        warm_mode(s, &s->looks, &s->stage.frame, &s->stage.pose, wanted, true))
+    if (!(s->looks.ready >> wanted & 1) && warm_mode(s, &s->looks, &s->stage.shown, wanted, true))
         return true;
     return wanted == s->kiosk.shown.mode && !s->scenes.staged && work_on_others(s);
 }
@@ -309,12 +294,11 @@ bool gn_show_open_loader(struct gn_show *s, struct gn_err *err) {
            gn_fail(err, "show: cannot wait for scenes: %s", strerror(errno));
 }
 
-bool gn_show_start_load(struct gn_show *s, int number, const char *path,
-                        const struct gn_settings *settings, struct gn_err *err) {
-    struct gn_scene_limits limits;
+void gn_show_start_load(struct gn_show *s, int number, const char *path,
+                        const struct gn_settings *settings) {
+    const struct gn_scene_limits limits = gn_stage_limits(settings);
     s->scenes.load_begun_ns = gn_loop_now_ns(s->loop);
-    return gn_stage_limits(settings, &limits, err) &&
-           gn_loader_start(s->scenes.loader, number, path, &limits, err);
+    gn_loader_start(s->scenes.loader, number, path, &limits);
 }
 
 static bool is_ready(const struct gn_show *s, int scene) {
@@ -344,7 +328,7 @@ static void show_wanted(struct gn_show *s, int scene) {
         s->first.lost[0] = '\0'; /* another one was chosen */
         s->looks = scenes->looks;
         scenes->shown = scene;
-        stage->frame_opts.view.orbit = (struct gn_orbit){0};
+        stage->shown.opts.view.orbit = (struct gn_orbit){0};
         gn_show_take_staged(s);
         gn_parts_loaded(&s->parts, GN_PART_LOAD_SCENE);
     }
@@ -373,11 +357,8 @@ void gn_show_advance(struct gn_show *s) {
 
     /* one load at a time; a reload, which may change the list, comes first */
     if (scene != scenes->shown && !scenes->staged && !s->reload.options &&
-        !gn_loader_is_busy(scenes->loader)) {
-        struct gn_err err = {0};
-        if (!gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings, &err))
-            fail_place(s, GN_KIOSK_SCENE_FAILED, scene, err.text);
-    }
+        !gn_loader_is_busy(scenes->loader))
+        gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings);
     if (!is_ready(s, scene)) {
         if (scenes->staged || scene == scenes->shown) s->ahead.idle = false;
         return;

@@ -112,11 +112,11 @@ bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
     const int frames = s->stage.settings->run.frames;
     s->counts.most_frames = frames > 0 && !s->reload.first ? (uint64_t)frames : UINT64_MAX;
     s->hand = (struct gn_show_hand){0};
-    s->stage.rested_ns = 0;
+    s->stage.shown.rested_ns = 0;
     gn_show_list_modes(s);
     gn_truth_drop(s);
     s->truth = (struct gn_show_truth){0};
-    gn_frame_destroy(s->split.frame);
+    gn_view_stop(&s->split.view);
     s->split = (struct gn_show_split){0}; /* its mode is of the other list */
     s->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
     s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);

@@ -61,8 +61,8 @@ bool gn_show_bar_moves(const struct gn_show *s) {
 
 void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
     struct gn_show_text *t = &s->text;
-    struct gn_frame_opts *f = &s->stage.frame_opts;
-    const bool on_side = f->turn_deg / 90 % 2;
+    struct gn_frame_opts *f = &s->stage.shown.opts;
+    const bool on_side = f->output.turn_deg / 90 % 2;
 
     /* captions of changes: a text is set only when it changes */
     const char *error = s->config.options->config_error;
@@ -115,9 +115,10 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
     } else if (gn_info_page_step(&t->page, &info, now_ns)) {
         gn_captions_set(t->captions, GN_CAPTION_INFO, t->page.text, now_ns);
     }
-    f->captions_later = true;
-    f->captions = gn_captions_run(t->captions, on_side ? f->height_px : f->width_px,
-                                  on_side ? f->width_px : f->height_px, now_ns);
+    f->cover.captions_later = true;
+    f->cover.captions =
+        gn_captions_run(t->captions, on_side ? f->output.height_px : f->output.width_px,
+                        on_side ? f->output.width_px : f->output.height_px, now_ns);
 }
 
 /* The information page is updated once a second. */

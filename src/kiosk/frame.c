@@ -14,7 +14,7 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     if (view.dark && s->drawn.dark) return false; /* black stays black */
-    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.fade < 1 ||
+    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.at.fade < 1 ||
                        (!view.stands && (view.clip >= 0 || !gn_pose_stands(&s->stage.pose) ||
                                          gn_show_turntable_moves(s)));
     const struct gn_kiosk_view *drawn = &s->drawn;
@@ -31,20 +31,21 @@ bool gn_show_wants_frame(const struct gn_show *s) {
 
 /* Fills a requested screenshot from this frame. */
 static void fill_screenshot(struct gn_show *s, struct gn_screenshot *shot) {
-    const struct gn_frame_opts *f = &s->stage.frame_opts;
+    const struct gn_frame_opts *f = &s->stage.shown.opts;
     struct gn_err err = {0};
     if (!shot || !gn_screenshot_is_asked(shot)) return;
-    uint8_t *rgba = gn_screenshot_begin(shot, f->width_px, f->height_px, f->turn_deg, &err);
+    uint8_t *rgba = gn_screenshot_begin(shot, f->output.width_px, f->output.height_px,
+                                        f->output.turn_deg, &err);
     if (!rgba || !gn_gl_read_rgba8(s->stage.gl, rgba, &err) || !gn_screenshot_start(shot, &err))
         gn_screenshot_fail(shot, &err);
 }
 
-static bool draw_frame(struct gn_show *s, struct gn_err *err) {
+/* *behind: a filtered map is older than the pose, so another frame is due. */
+static bool draw_frame(struct gn_show *s, bool *behind, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const int64_t seen_ns = screen->seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_FRAME, .time_ns = seen_ns};
-    s->stage.is_behind = false;
     s->drawn.dark = view.dark;
     if (screen->black || (view.dark && s->rules.sleeps_black)) {
         gn_gl_black(s->stage.gl);
@@ -57,19 +58,20 @@ static bool draw_frame(struct gn_show *s, struct gn_err *err) {
     gn_show_take_view(s, &view, seen_ns);
     gn_show_write_captions(s, &view, seen_ns);
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
-    gn_parts_add_frame(&s->parts, &s->stage.frame_opts);
+    gn_parts_add_frame(&s->parts, &s->stage.shown.opts);
     if (is_bare) { /* this frame */
-        s->stage.frame_opts.captions = NULL;
-        s->stage.frame_opts.dimmed = 0.0f;
+        s->stage.shown.opts.cover.captions = NULL;
+        s->stage.shown.opts.cover.dimmed = 0.0f;
     }
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     gn_show_step_turntable(s, seen_ns, scene_ns);
-    bool left_is_behind = false;
-    if (s->split.on && !gn_split_draw_left(s, scene_ns, &left_is_behind, err)) return false;
-    if (!(s->truth.on ? gn_truth_draw(s, scene_ns, err)
-                      : gn_stage_draw(&s->stage, scene_ns, s->warnings, err) != NULL))
-        return false;
-    s->stage.is_behind |= left_is_behind;
+    const struct gn_plan *left = s->split.on ? gn_split_draw_left(s, scene_ns, err) : NULL;
+    if (s->split.on && !left) return false;
+    const struct gn_plan *plan =
+        s->truth.on ? gn_truth_draw(s, scene_ns, err)
+                    : gn_view_draw(&s->stage.shown, &s->stage, scene_ns, s->warnings, err);
+    if (!plan) return false;
+    *behind = plan->is_behind || (left && left->is_behind);
     if (s->split.on)
         gn_split_lay_over(s);
     else if (view.old > 0.0f)
@@ -119,14 +121,15 @@ bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
     const int64_t begun_ns = gn_loop_now_ns(s->loop);
     if (!gpu_is_well(s) && gn_display_lose(display, begun_ns)) return true;
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
-    const bool drawn = draw_frame(s, err);
+    bool behind = false;
+    const bool drawn = draw_frame(s, &behind, err);
     if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_loop_now_ns(s->loop))) {
         *err = (struct gn_err){0};
         return true;
     }
     if (!drawn) return false;
     const int64_t drawn_ns = gn_loop_now_ns(s->loop);
-    s->changed = s->stage.is_behind; /* a filtered map is older than the pose */
+    s->changed = behind;
     if (!gn_display_present(display, drawn_ns, err)) return false;
 
     /* latency of buttons */

@@ -64,7 +64,7 @@ static void close_hours(void *part) { gn_loop_remove_timer(&((struct hours *)par
 
 static void dim_frame(void *part, struct gn_frame_opts *opts) {
     const struct hours *hours = part;
-    opts->dimmed = hours->dims ? 1.0f - (float)settings_of(hours)->dim_to : 0.0f;
+    opts->cover.dimmed = hours->dims ? 1.0f - (float)settings_of(hours)->dim_to : 0.0f;
 }
 
 static const void *hours_status(void *part) {

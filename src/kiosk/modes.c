@@ -116,12 +116,12 @@ bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
 /* They are not where they would be had the pose gone on. */
 static bool clips_jump(const struct gn_pose *pose, const struct gn_stage_look *look, int over,
                        const struct gn_kiosk_view *view) {
-    const bool replays = over >= 0 && view->clip_ns < pose->over_ns;
-    return look->clips != pose->clips || over != pose->over || replays ||
-           (pose->animated &&
-            (look->run.turns != pose->run.turns ||
-             look->run.speed_less_1 != pose->run.speed_less_1 ||
-             look->run.start_ns != pose->run.start_ns || view->clips_begun_ns != pose->begun_ns));
+    const bool replays = over >= 0 && view->clip_ns < pose->at.over_ns;
+    return look->clips != pose->at.clips || over != pose->at.over || replays ||
+           (pose->animated && (look->run.turns != pose->at.run.turns ||
+                               look->run.speed_less_1 != pose->at.run.speed_less_1 ||
+                               look->run.start_ns != pose->at.run.start_ns ||
+                               view->clips_begun_ns != pose->at.begun_ns));
 }
 
 /* From what is shown to what these clips make of it, in [kiosk] clip_fade. */
@@ -135,32 +135,29 @@ static void choose_clips(struct gn_show *s, const struct gn_kiosk_view *view, in
     const bool was_seen = s->clips_of == s->stage.scene && s->counts.frames > 0;
     s->clips_of = s->stage.scene;
     const bool jumps = clips_jump(pose, look, over, view);
-    pose->run = look->run;
-    pose->begun_ns = view->clips_begun_ns;
+    pose->at.run = look->run;
+    pose->at.begun_ns = view->clips_begun_ns;
     if (jumps) {
         s->clips_begun_ns = seen_ns;
         if (fade_ns > 0 && was_seen)
             gn_pose_choose_fading(pose, clips, over);
         else
             gn_pose_choose_over(pose, clips, over);
-    } else if (pose->fade < 1) {
+    } else if (pose->at.fade < 1) {
         const double share =
             fade_ns > 0 ? (double)(seen_ns - s->clips_begun_ns) / (double)fade_ns : 1;
         if (share >= 1)
             gn_pose_choose_over(pose, clips, over);
         else
-            pose->fade = share > 0 ? (float)share : 0;
+            pose->at.fade = share > 0 ? (float)share : 0;
     }
-    pose->over_ns = view->clip_ns;
+    pose->at.over_ns = view->clip_ns;
 }
 
 void gn_show_enter(struct gn_show *s) {
     const struct gn_stage_look *look = &s->looks.of[s->kiosk.shown.mode];
-    const struct gn_frame_opts before = s->stage.frame_opts;
     s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
-    s->stage.frame_opts = look->frame_opts;
-    if (look->frame_opts.view.camera == before.view.camera)
-        s->stage.frame_opts.view.orbit = before.view.orbit;
+    gn_view_enter(&s->stage.shown, &look->frame_opts);
     /* the last frame is of the time at which it is seen, which may be later */
     const int64_t loop_ns = gn_loop_now_ns(s->loop),
                   now_ns = loop_ns > s->kiosk.seen_ns ? loop_ns : s->kiosk.seen_ns;
@@ -173,7 +170,7 @@ void gn_show_enter(struct gn_show *s) {
 
 void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view, int64_t seen_ns) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
-    struct gn_frame_opts *f = &s->stage.frame_opts;
+    struct gn_frame_opts *f = &s->stage.shown.opts;
     choose_clips(s, view, seen_ns);
     const uint32_t camera =
         ((uint32_t)look->frame_opts.view.camera + view->camera) % s->stage.scene->camera_count;

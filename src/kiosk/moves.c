@@ -38,7 +38,7 @@ void gn_show_suppress_taps(struct gn_show *s) {
 }
 
 void gn_show_turn_home(struct gn_show *s) {
-    struct gn_orbit *orbit = &s->stage.frame_opts.view.orbit;
+    struct gn_orbit *orbit = &s->stage.shown.opts.view.orbit;
     s->changed |= !gn_orbit_is_zero(orbit);
     *orbit = (struct gn_orbit){0};
 }
@@ -54,5 +54,5 @@ int64_t gn_show_turntable_due_ns(const struct gn_show *s) {
 }
 
 void gn_show_step_turntable(struct gn_show *s, int64_t seen_ns, int64_t scene_ns) {
-    s->stage.rested_ns = gn_turntable_step(&s->hand.turntable, rest_ns(s), seen_ns, scene_ns);
+    s->stage.shown.rested_ns = gn_turntable_step(&s->hand.turntable, rest_ns(s), seen_ns, scene_ns);
 }

@@ -37,7 +37,7 @@ void gn_show_pointer_add(const struct gn_screen *screen, const struct gn_input_m
 
 bool gn_show_pointer_turn(struct gn_stage *stage, const struct gn_pointer *p) {
     const struct gn_screen *screen = &stage->display.screen;
-    struct gn_frame_opts *f = &stage->frame_opts;
+    struct gn_frame_opts *f = &stage->shown.opts;
     const bool moved = p->home || p->turn[0] != 0.0f || p->turn[1] != 0.0f || p->pan[0] != 0.0f ||
                        p->pan[1] != 0.0f || p->wheel != 0.0f;
     if (screen->width_px == 0 || screen->height_px == 0 || !moved) return false;

@@ -40,11 +40,9 @@ struct gn_show_config {
 /* The screen's context, and what frames are drawn with in it. */
 struct gn_show_context {
     struct gn_screen_opts screen_opts;
-    uint32_t generation; /* of the context that stage.gl lives in; 0: none */
-    bool message;        /* the screen shows a text in place of pictures */
-    bool lacks_range;    /* and a problem says so */
-    bool unencoded;      /* as frames are drawn now */
-    uint32_t msaa;
+    uint32_t generation;     /* of the context that stage.gl lives in; 0: none */
+    bool message;            /* the screen shows a text in place of pictures */
+    bool lacks_range;        /* and a problem says so */
     uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
     int64_t checked_ns;      /* which was then */
 };
@@ -67,7 +65,7 @@ struct gn_show_scenes {
     struct gn_watch loader_watch;
     int64_t load_begun_ns;
     struct gn_loaded *staged;   /* loaded, to be shown next, or a reload's; NULL: none */
-    struct gn_frame *frame;     /* of the staged scene, while there is a context */
+    struct gn_view view;        /* of it, for its programs; its pose once the upload has begun */
     bool whole;                 /* all of the staged scene is on the GPU */
     struct gn_show_looks looks; /* of the staged scene; a reload's has one, at 0 */
 };
@@ -115,7 +113,7 @@ struct gn_show {
     struct gn_show_ahead ahead;
     struct gn_show_fade fade;
     const struct gn_scene *clips_of; /* whose pose was chosen last: another one's was not seen */
-    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.fade */
+    int64_t clips_begun_ns;          /* when other clips were chosen: stage.pose.at.fade */
     struct gn_show_counts counts;
     struct gn_parts parts;
     struct gn_show_first first;
@@ -182,8 +180,8 @@ void gn_show_forget_work(struct gn_show *show);
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
 void gn_show_close_loader(struct gn_show *show);
 /* Not while the loader is busy. path NULL: the default scene. */
-bool gn_show_start_load(struct gn_show *show, int number, const char *path,
-                        const struct gn_settings *settings, struct gn_err *err);
+void gn_show_start_load(struct gn_show *show, int number, const char *path,
+                        const struct gn_settings *settings);
 /* Loads the wanted scene, and shows the wanted mode and scene once they are ready. */
 void gn_show_advance(struct gn_show *show);
 /* gn_show_advance() can show the wanted mode and scene now. */

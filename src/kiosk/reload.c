@@ -45,7 +45,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     if (!r->first) s->first.lost[0] = '\0';
     s->config.waits = false;
     s->stage.settings = options->settings;
-    s->stage.frame_opts.view.orbit = (struct gn_orbit){0};
+    s->stage.shown.opts.view.orbit = (struct gn_orbit){0};
     const struct gn_kiosk before = s->kiosk;
     const bool begun = gn_show_begin(s, err);
     s->kiosk.shown.scene = s->kiosk.wanted.scene = r->scene;
@@ -268,8 +268,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     const char *path = scene_path(r->options->settings, r->scene);
     if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP && !(r->first && s->first.lost[0]))
         snprintf(s->config.asked, sizeof s->config.asked, "%s", path ? path : "");
-    if (!gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings, &why))
-        keep_old(s, r->cause, &why);
+    gn_show_start_load(s, GN_SHOW_RELOAD, path, r->options->settings);
     return true;
 }
 
@@ -287,8 +286,7 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
         gn_loaded_drop(s->reload.loaded);
         s->reload.loaded = NULL;
         o = s->config.options->settings;
-        if (!gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->first.scene), o, err))
-            return false;
+        gn_show_start_load(s, GN_SHOW_RELOAD, scene_path(o, s->first.scene), o);
         while (!s->reload.loaded && !s->ends && gn_loop_now_ns(s->loop) < until_ns)
             gn_loop_step(s->loop, until_ns);
         if (s->ends) return false;
@@ -298,8 +296,10 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     struct gn_stage_look look;
     char missing[GN_SHOW_WHY];
     const bool ok = gn_show_look_at_first(s, s->config.options, loaded, &look, missing, err);
-    s->stage = (struct gn_stage){
-        .settings = s->config.options->settings, .scene = loaded->scene, .pose = loaded->pose};
+    s->stage = (struct gn_stage){.settings = s->config.options->settings,
+                                 .scene = loaded->scene,
+                                 .pose = loaded->pose,
+                                 .shown.pose = &s->stage.pose};
     loaded->scene = NULL;
     loaded->pose = (struct gn_pose){0};
     gn_show_drop_reload(s);

@@ -54,7 +54,7 @@ static void begin_counts(struct gn_state *s) {
     memcpy(s->boot, boot, sizeof boot);
 }
 
-/* The mode of that name, but where the command line says which. */
+/* The mode of that name, unless the command line names one. */
 static void recall_mode(const struct gn_show *s, struct gn_options *o) {
     const char *mode = memory_of(s)->state.mode;
     const struct gn_settings *base = &o->all[0];
@@ -103,7 +103,7 @@ static void recall(struct gn_show *s) {
     struct gn_err err = {0};
     if (strcmp(path, "no") == 0) return;
     snprintf(m->path, sizeof m->path, "%s", path);
-    if (gn_state_read(&gn_state_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
+    if (gn_state_read(&gn_disk, m->path, &m->state, &m->older, &err) == GN_STATE_BROKEN)
         gn_warn(s->warnings, "state: %s; starting as configured", err.text);
     memcpy(m->good[0], m->state.scene, PATH_MAX);
     memcpy(m->good[1], m->state.past, PATH_MAX);
@@ -182,12 +182,11 @@ static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64
 static void begin_save(void *user, int64_t now_ns) {
     struct gn_show *s = user;
     struct memory *m = memory_of(s);
-    struct gn_err err = {0};
     m->saved_ns = m->begun ? now_ns : 0; /* after the first there is no rest */
     m->begun = true;
     m->changed = false;
     m->state.sequence++;
-    if (!gn_keeper_start(m->keeper, &m->state, &err)) end_save(s, false, &err, now_ns);
+    gn_keeper_save(m->keeper, &m->state);
 }
 
 static void take_save(void *user, uint32_t events, int64_t now_ns) {
@@ -202,7 +201,7 @@ static void open_memory(struct gn_show *s) {
     struct memory *m = memory_of(s);
     struct gn_err err = {0};
     if (!m->path[0]) return;
-    m->keeper = gn_keeper_create(&gn_state_disk, m->path, m->older, &err);
+    m->keeper = gn_keeper_open(&gn_disk, m->path, m->older, &err);
     m->done = (struct gn_watch){.fd = m->keeper ? gn_keeper_fd(m->keeper) : -1,
                                 .events = EPOLLIN,
                                 .call = take_save,
@@ -277,12 +276,11 @@ static void remember(struct gn_show *s) {
 
 static void end_memory(struct gn_show *s) {
     struct memory *m = memory_of(s);
-    struct gn_err err = {0};
     if (!m->keeper) return;
     remember(s);
     m->state.runs = s->failed;
     m->state.sequence++;
-    if (!gn_keeper_start_last(m->keeper, &m->state, &err)) report_failure(s, &err);
+    gn_keeper_save(m->keeper, &m->state);
     gn_loop_remove(&m->done);
     gn_loop_remove_timer(&m->timer);
 }

@@ -40,6 +40,7 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
         &s->stage.display, s->config.place ? s->config.place->backend : o->display.backend,
         &s->context.screen_opts, gn_loop_now_ns(s->loop), s->warnings, err);
     gn_wake_end(&wake);
+    if (wake.no_cache.text[0]) gn_warn(s->warnings, "%s", wake.no_cache.text);
     if (ok && s->config.place) s->config.place->opened = true;
     return ok;
 }
@@ -47,18 +48,18 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
 void gn_show_fit_to_screen(struct gn_show *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool direct = s->stage.display.ops->screen && !screen->copy_to;
-    struct gn_frame_opts *f = &s->stage.frame_opts;
     const struct gn_gl_window window = {screen->width_px, screen->height_px, screen->srgb};
-    f->width_px = screen->width_px;
-    f->height_px = screen->height_px;
-    f->turn_deg = screen->rotate_deg;
-    const bool unencoded = direct && !screen->srgb;
-    const uint32_t msaa = gn_stage_msaa(&s->stage, f->width_px, f->height_px, false);
-    if (s->context.unencoded != unencoded || s->context.msaa != msaa) { /* other programs */
-        gn_show_unready(s);
-    }
-    f->unencoded = s->context.unencoded = unencoded;
-    f->msaa = s->context.msaa = msaa;
+    struct gn_frame_output_opts *output = &s->stage.shown.opts.output;
+    const struct gn_frame_output_opts before = *output;
+    *output = (struct gn_frame_output_opts){
+        .width_px = screen->width_px,
+        .height_px = screen->height_px,
+        .turn_deg = screen->rotate_deg,
+        .msaa = gn_stage_msaa(&s->stage, screen->width_px, screen->height_px, false),
+        .unencoded = direct && !screen->srgb,
+    };
+    if (output->unencoded != before.unencoded || output->msaa != before.msaa)
+        gn_show_unready(s); /* other programs */
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
 }
 
@@ -125,11 +126,12 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     if (screen->may_draw) return true;
 
     /* without a monitor the programs are made by drawing a small frame */
-    s->stage.frame_opts.width_px = 64;
-    s->stage.frame_opts.height_px = 36;
-    s->stage.frame_opts.captions = NULL; /* those are laid out for another size */
+    s->stage.shown.opts.output.width_px = 64;
+    s->stage.shown.opts.output.height_px = 36;
+    s->stage.shown.opts.cover.captions = NULL; /* those are laid out for another size */
     gn_gl_set_window(s->stage.gl, NULL);
-    if (!gn_stage_draw(&s->stage, s->stage.settings->scene.time_ns, s->warnings, err))
+    if (!gn_view_draw(&s->stage.shown, &s->stage, s->stage.settings->scene.time_ns, s->warnings,
+                      err))
         return show_failure(s, err);
     gn_gl_finish_frame(s->stage.gl); /* many drivers compile at the first draw */
     return true;

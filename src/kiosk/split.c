@@ -8,7 +8,7 @@ enum { REACH_PX = 12, LINE_PX = 2 }; /* of the mouse to each side of the line; t
 
 void gn_split_end(struct gn_show *s) {
     if (s->truth.on) gn_truth_end(s);
-    gn_frame_destroy(s->split.frame);
+    gn_view_stop(&s->split.view);
     s->split = (struct gn_show_split){.at = s->split.at};
     s->changed = true;
 }
@@ -50,44 +50,21 @@ void gn_split_take_pointer(struct gn_show *s, struct gn_pointer *p) {
     if (p->released) split->grips = false;
 }
 
-/* The left mode's look, in what holds for the screen and the moment. */
-static struct gn_frame_opts left_opts(const struct gn_show *s) {
-    const struct gn_frame_opts *now = &s->stage.frame_opts;
-    struct gn_frame_opts opts = s->looks.of[s->split.left].frame_opts;
-    opts.view = now->view;
-    opts.width_px = now->width_px;
-    opts.height_px = now->height_px;
-    opts.turn_deg = now->turn_deg;
-    opts.unencoded = now->unencoded;
-    opts.msaa = now->msaa;
-    opts.captions = now->captions;
-    opts.captions_later = now->captions_later;
-    opts.dimmed = now->dimmed;
-    return opts;
-}
-
-bool gn_split_draw_left(struct gn_show *s, int64_t time_ns, bool *behind, struct gn_err *err) {
-    struct gn_stage *stage = &s->stage;
-    struct gn_frame *const frame = stage->frame;
-    const struct gn_frame_opts opts = stage->frame_opts;
-    if (!s->split.frame) s->split.frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
-    stage->frame = s->split.frame;
-    stage->frame_opts = left_opts(s);
-    const bool ok = gn_stage_draw(stage, time_ns, s->warnings, err) && gn_gl_keep(stage->gl, err);
-    *behind = stage->is_behind;
-    s->split.frame = stage->frame; /* another one where a capability was disproved */
-    stage->frame = frame;
-    stage->frame_opts = opts;
-    return ok;
+const struct gn_plan *gn_split_draw_left(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
+    struct gn_view *left = &s->split.view;
+    gn_view_share(left, &s->stage.shown, &s->looks.of[s->split.left].frame_opts);
+    const struct gn_plan *plan = gn_view_draw(left, &s->stage, time_ns, s->warnings, err);
+    return plan && gn_gl_keep(s->stage.gl, err) ? plan : NULL;
 }
 
 void gn_split_lay_over(struct gn_show *s) {
-    const struct gn_frame_opts *f = &s->stage.frame_opts;
-    const uint32_t width = f->width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
+    const struct gn_frame_opts *f = &s->stage.shown.opts;
+    const uint32_t width = f->output.width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
                    from = at > LINE_PX ? at - LINE_PX : 0,
                    to = at + LINE_PX < width ? at + LINE_PX : width;
     gn_gl_lay_beside(s->stage.gl, at);
-    gn_gl_fill(s->stage.gl, &(struct gn_rect){from, 0, to - from, f->height_px}, 0.0f);
+    gn_gl_fill(s->stage.gl, &(struct gn_rect){from, 0, to - from, f->output.height_px}, 0.0f);
     if (to - from > 2)
-        gn_gl_fill(s->stage.gl, &(struct gn_rect){from + 1, 0, to - from - 2, f->height_px}, 1.0f);
+        gn_gl_fill(s->stage.gl, &(struct gn_rect){from + 1, 0, to - from - 2, f->output.height_px},
+                   1.0f);
 }

@@ -8,14 +8,15 @@
 
 #include "core/err.h"
 #include "display/pointer.h"
+#include "stage/view.h"
 
 struct gn_show;
 
-struct gn_show_split {      /* zeroed: off */
-    bool on, grips;         /* grips: the mouse drags the line */
-    int left;               /* mode on the left; on the right is the one that is shown, or truth */
-    float at;               /* place of the line: 0 the window's left edge, 1 its right */
-    struct gn_frame *frame; /* builds the left plans; NULL: none yet */
+struct gn_show_split {   /* zeroed: off */
+    bool on, grips;      /* grips: the mouse drags the line */
+    int left;            /* mode on the left; on the right is the one that is shown, or truth */
+    float at;            /* place of the line: 0 the window's left edge, 1 its right */
+    struct gn_view view; /* of the left mode, at the moment that is shown */
 };
 
 /* On: the shown mode goes to the left, and the next one is shown on the right; off: that stays. */
@@ -25,9 +26,9 @@ void gn_split_toggle_truth(struct gn_show *show);
 void gn_split_end(struct gn_show *show);
 /* A drag that begins near the line moves it, and does not turn the view. */
 void gn_split_take_pointer(struct gn_show *show, struct gn_pointer *pointer);
-/* Before the frame of the shown mode, at the same time of the scene; *behind: wants another frame.
- */
-bool gn_split_draw_left(struct gn_show *show, int64_t time_ns, bool *behind, struct gn_err *err);
+/* Draws the left mode and keeps that picture, before the frame of the shown mode at the same time
+ * of the scene. NULL on failure. */
+const struct gn_plan *gn_split_draw_left(struct gn_show *show, int64_t time_ns, struct gn_err *err);
 void gn_split_lay_over(struct gn_show *show); /* after it */
 
 #endif

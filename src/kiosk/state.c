@@ -3,98 +3,97 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <zlib.h>
 
-#include "core/disk.h"
+#include "core/file.h"
 
 static const char head[] = "gnomon-state 1\n", sum_key[] = "crc32 ";
 enum { SUM_LENGTH = sizeof sum_key - 1 + 8 + 1 }; /* "crc32 0123abcd\n" */
 
 /* ---- text ----------------------------------------------------------------------------------- */
 
-/* ISO-HDLC, as zlib and cksum -a crc32b have it. */
-static uint32_t crc32_of(const char *data, size_t size) {
-    uint32_t crc = UINT32_MAX;
-    for (size_t i = 0; i < size; i++) {
-        crc ^= (uint8_t)data[i];
-        for (int bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-    }
-    return ~crc;
+static unsigned sum_text(const char *text, size_t size) {
+    return (unsigned)crc32(0, (const Bytef *)text, (uInt)size);
 }
 
-static size_t add_text(char *out, size_t used, const char *key, const char *text) {
-    if (!text[0] || strpbrk(text, "\r\n")) return used;
-    return used +
-           (size_t)snprintf(out + used, GN_STATE_TEXT_MAX - used, "%s %.*s\n", key, PATH_MAX, text);
+/* The lines between the first and the last, in their order. */
+static const struct line {
+    const char *key;
+    enum { TEXT, FLAG, NUMBER } kind;
+    size_t offset, size;
+} lines[] = {
+#define LINE(key, kind, member)                                                                    \
+    { key, kind, offsetof(struct gn_state, member), sizeof((struct gn_state *)0)->member }
+    LINE("sequence", NUMBER, sequence),
+    LINE("mode", TEXT, mode),
+    LINE("scene", TEXT, scene),
+    LINE("past", TEXT, past),
+    LINE("listed", TEXT, listed),
+    LINE("given", FLAG, given),
+    LINE("runs", FLAG, runs),
+    LINE("boot", TEXT, boot),
+#define X(id) LINE(#id, NUMBER, counts.id),
+    GN_STATE_COUNTS(X)
+#undef X
+#undef LINE
+};
+enum { LINES = sizeof lines / sizeof lines[0] };
+
+static size_t print_line(const struct line *line, const void *value, char *out, size_t size) {
+    const char *text = value;
+    switch (line->kind) {
+    case TEXT:
+        if (!text[0] || strpbrk(text, "\r\n")) return 0;
+        return (size_t)snprintf(out, size, "%s %s\n", line->key, text);
+    case FLAG:
+        return (size_t)snprintf(out, size, "%s %s\n", line->key,
+                                *(const bool *)value ? "yes" : "no");
+    default:
+        return (size_t)snprintf(out, size, "%s %" PRIu64 "\n", line->key, *(const uint64_t *)value);
+    }
 }
 
 size_t gn_state_print(const struct gn_state *s, char out[GN_STATE_TEXT_MAX]) {
-    size_t used =
-        (size_t)snprintf(out, GN_STATE_TEXT_MAX, "%ssequence %" PRIu64 "\n", head, s->sequence);
-    used = add_text(out, used, "mode", s->mode);
-    used = add_text(out, used, "scene", s->scene);
-    used = add_text(out, used, "past", s->past);
-    used = add_text(out, used, "listed", s->listed);
-    used = add_text(out, used, "given", s->given ? "yes" : "no");
-    used = add_text(out, used, "runs", s->runs ? "yes" : "no");
-    used = add_text(out, used, "boot", s->boot);
-#define X(id)                                                                                      \
-    used += (size_t)snprintf(out + used, GN_STATE_TEXT_MAX - used, #id " %" PRIu64 "\n",           \
-                             s->counts.id);
-    GN_STATE_COUNTS(X)
-#undef X
-    return used + (size_t)snprintf(out + used, GN_STATE_TEXT_MAX - used, "%s%08" PRIx32 "\n",
-                                   sum_key, crc32_of(out, used));
+    size_t used = (size_t)snprintf(out, GN_STATE_TEXT_MAX, "%s", head);
+    for (int i = 0; i < LINES; i++)
+        used += print_line(&lines[i], (const char *)s + lines[i].offset, out + used,
+                           GN_STATE_TEXT_MAX - used);
+    return used + (size_t)snprintf(out + used, GN_STATE_TEXT_MAX - used, "%s%08x\n", sum_key,
+                                   sum_text(out, used));
 }
 
 static bool is_whole(const char *text, size_t size, struct gn_err *err) {
     char sum[SUM_LENGTH + 1];
     if (size < sizeof head - 1 + SUM_LENGTH || memcmp(text, head, sizeof head - 1) != 0)
         return gn_fail(err, "is no state of this version");
-    snprintf(sum, sizeof sum, "%s%08" PRIx32 "\n", sum_key, crc32_of(text, size - SUM_LENGTH));
+    snprintf(sum, sizeof sum, "%s%08x\n", sum_key, sum_text(text, size - SUM_LENGTH));
     return memcmp(text + size - SUM_LENGTH, sum, SUM_LENGTH) == 0 ||
            gn_fail(err, "its checksum is wrong");
 }
 
-static void take_text(const char *value, size_t length, char *out, size_t room) {
-    if (length >= room) return; /* of a later version */
-    memcpy(out, value, length);
-    out[length] = 0;
+/* length: that of the value, which ends before a line end. */
+static void take_value(const struct line *line, const char *value, size_t length, void *out) {
+    switch (line->kind) {
+    case TEXT:
+        if (length >= line->size) return; /* written by a later version */
+        memcpy(out, value, length);
+        ((char *)out)[length] = 0;
+        break;
+    case FLAG: *(bool *)out = *value == 'y'; break;
+    case NUMBER: *(uint64_t *)out = strtoull(value, NULL, 10); break;
+    }
 }
 
-static void take_line(struct gn_state *s, const char *line, size_t length) {
-    const char *space = memchr(line, ' ', length);
-    if (!space) return;
-    const char *value = space + 1;
-    const size_t key = (size_t)(space - line), rest = length - key - 1;
-    const struct {
-        const char *key;
-        char *out;
-        size_t room;
-    } texts[] = {{"mode", s->mode, sizeof s->mode},
-                 {"scene", s->scene, sizeof s->scene},
-                 {"past", s->past, sizeof s->past},
-                 {"listed", s->listed, sizeof s->listed},
-                 {"boot", s->boot, sizeof s->boot}};
-    const struct {
-        const char *key;
-        uint64_t *out;
-    } numbers[] = {{"sequence", &s->sequence},
-#define X(id) {#id, &s->counts.id},
-                   GN_STATE_COUNTS(X)
-#undef X
-    };
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
-        if (strlen(texts[i].key) == key && memcmp(texts[i].key, line, key) == 0)
-            take_text(value, rest, texts[i].out, texts[i].room);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        if (strlen(numbers[i].key) == key && memcmp(numbers[i].key, line, key) == 0)
-            *numbers[i].out = strtoull(value, NULL, 10); /* ends at the line's end */
-    if (key == 5 && memcmp(line, "given", key) == 0) s->given = *value == 'y';
-    if (key == 4 && memcmp(line, "runs", key) == 0) s->runs = *value == 'y';
+static void take_line(struct gn_state *s, const char *text, size_t length) {
+    const char *space = memchr(text, ' ', length);
+    const size_t key = space ? (size_t)(space - text) : length;
+    for (int i = 0; space && i < LINES; i++)
+        if (strlen(lines[i].key) == key && memcmp(lines[i].key, text, key) == 0)
+            take_value(&lines[i], space + 1, length - key - 1, (char *)s + lines[i].offset);
 }
 
 bool gn_state_parse(const char *text, size_t size, struct gn_state *out, struct gn_err *err) {
@@ -115,19 +114,27 @@ struct name {
     char text[PATH_MAX + 8];
 };
 
-static struct name name_of(const char *path, const char *suffix) {
+static struct name name_of(const char *path, int generation) {
     struct name name;
-    snprintf(name.text, sizeof name.text, "%s%s", path, suffix);
+    snprintf(name.text, sizeof name.text, "%s%s", path, generation ? ".2" : "");
     return name;
 }
 
-static const char *const suffixes[] = {"", ".2"};
+static ssize_t read_text(const struct gn_disk *disk, const char *path, char *out, size_t size) {
+    const int fd = disk->open(disk->user, AT_FDCWD, path, O_RDONLY | O_NONBLOCK | O_NOCTTY, 0);
+    if (fd < 0) return -1;
+    const ssize_t got = gn_disk_read_all(disk, fd, out, size);
+    const int reason = errno;
+    disk->close(disk->user, fd);
+    errno = reason;
+    return got;
+}
 
 /* Sets *gone if there is no such file. */
-static bool read_one(const struct gn_state_files *files, const char *path, struct gn_state *out,
-                     bool *gone, struct gn_err *err) {
+static bool read_generation(const struct gn_disk *disk, const char *path, struct gn_state *out,
+                            bool *gone, struct gn_err *err) {
     char text[GN_STATE_TEXT_MAX + 1];
-    const ssize_t size = files->read_file(files->user, path, text, sizeof text);
+    const ssize_t size = read_text(disk, path, text, sizeof text);
     *gone = size < 0 && errno == ENOENT;
     if (size < 0) return gn_fail(err, "%s: cannot read: %s", path, strerror(errno));
     if (size > GN_STATE_TEXT_MAX) return gn_fail(err, "%s: is too long for a state", path);
@@ -136,14 +143,14 @@ static bool read_one(const struct gn_state_files *files, const char *path, struc
     return false;
 }
 
-enum gn_state_found gn_state_read(const struct gn_state_files *files, const char *path,
+enum gn_state_found gn_state_read(const struct gn_disk *disk, const char *path,
                                   struct gn_state *out, int *older, struct gn_err *err) {
     struct gn_state other = {0};
     struct gn_err why[2] = {0};
     bool gone[2];
     *out = (struct gn_state){0};
-    const bool first = read_one(files, name_of(path, suffixes[0]).text, out, &gone[0], &why[0]);
-    const bool second = read_one(files, name_of(path, suffixes[1]).text, &other, &gone[1], &why[1]);
+    const bool first = read_generation(disk, name_of(path, 0).text, out, &gone[0], &why[0]);
+    const bool second = read_generation(disk, name_of(path, 1).text, &other, &gone[1], &why[1]);
     *older = first && (!second || other.sequence <= out->sequence);
     if (second && *older == 0) *out = other;
     if (first || second) return GN_STATE_READ;
@@ -152,76 +159,9 @@ enum gn_state_found gn_state_read(const struct gn_state_files *files, const char
     return GN_STATE_BROKEN;
 }
 
-bool gn_state_save(const struct gn_state_files *files, const char *path, int older,
+bool gn_state_save(const struct gn_disk *disk, const char *path, int older,
                    const struct gn_state *state, struct gn_err *err) {
     char text[GN_STATE_TEXT_MAX];
     const size_t size = gn_state_print(state, text);
-    const struct name fresh = name_of(path, ".new"), to = name_of(path, suffixes[older]);
-    const int fd = files->create(files->user, fresh.text);
-    bool ok = fd >= 0 && gn_disk_write_all(files->write, files->user, fd, text, size) &&
-              files->fsync(files->user, fd) == 0;
-    int reason = errno;
-    if (fd >= 0 && files->close(files->user, fd) != 0 && ok) ok = false, reason = errno;
-    if (!ok) return gn_fail(err, "%s: cannot write: %s", fresh.text, strerror(reason));
-    if (files->rename(files->user, fresh.text, to.text) != 0)
-        return gn_fail(err, "%s: cannot write: %s", to.text, strerror(errno));
-    return files->fsync_folder(files->user, path) == 0 || errno == EINVAL || /* it cannot be */
-           gn_fail(err, "%s: cannot write its folder: %s", path, strerror(errno));
+    return gn_file_keep(disk, name_of(path, older).text, text, size, err);
 }
-
-/* ---- the disk -------------------------------------------------------------------------------- */
-
-static ssize_t disk_read(void *user, const char *path, char *out, size_t size) {
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    size_t used = 0;
-    (void)user;
-    if (fd < 0) return -1;
-    while (used < size) {
-        const ssize_t got = read(fd, out + used, size - used);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
-            const int reason = errno;
-            close(fd);
-            errno = reason;
-            return -1;
-        }
-        if (got == 0) break;
-        used += (size_t)got;
-    }
-    close(fd);
-    return (ssize_t)used;
-}
-
-static int disk_create(void *user, const char *path) {
-    (void)user;
-    return open(path, O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
-}
-
-static int disk_rename(void *user, const char *from, const char *to) {
-    (void)user;
-    return rename(from, to);
-}
-
-static int disk_fsync_folder(void *user, const char *path) {
-    char folder[PATH_MAX];
-    const char *slash = strrchr(path, '/');
-    (void)user;
-    snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - path + 1) : 1,
-             slash ? path : ".");
-    const int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (fd < 0) return -1;
-    const int result = fsync(fd), reason = errno;
-    close(fd);
-    errno = reason;
-    return result;
-}
-
-const struct gn_state_files gn_state_disk = {
-    .read_file = disk_read,
-    .create = disk_create,
-    .write = gn_disk_write,
-    .fsync = gn_disk_fsync,
-    .close = gn_disk_close,
-    .rename = disk_rename,
-    .fsync_folder = disk_fsync_folder,
-};

@@ -1,14 +1,15 @@
-/* What a kiosk remembers over a restart, as a text of two generations: FILE and FILE.2. A save
- * writes FILE.new, flushes it to the disk, and renames it over the older of the two; the newer one
- * is not touched. So whenever the power is cut, one of them is whole, and its checksum says so. */
+/* What outlasts a restart of a kiosk, as a text of two generations: FILE and FILE.2. A save
+ * replaces the older one by gn_file_keep() and does not touch the newer one. So whenever the power
+ * is cut, one of them is whole, on FAT and on a card that damages a sector, too; its checksum shows
+ * it. */
 #ifndef GN_KIOSK_STATE_H
 #define GN_KIOSK_STATE_H
 
 #include <limits.h>
 #include <stdbool.h>
 #include <stdint.h>
-#include <sys/types.h>
 
+#include "core/disk.h"
 #include "core/err.h"
 
 /* Counters over all starts. A start that follows one without an end is a restart if the machine has
@@ -37,29 +38,16 @@ size_t gn_state_print(const struct gn_state *state, char out[GN_STATE_TEXT_MAX])
 /* False: cut short, changed, or of another version. Unknown keys are passed over. */
 bool gn_state_parse(const char *text, size_t size, struct gn_state *out, struct gn_err *err);
 
-/* The system calls that reading and saving take, each as its namesake: -1 and errno on failure. */
-struct gn_state_files {
-    void *user;
-    ssize_t (*read_file)(void *user, const char *path, char *out, size_t size);
-    int (*create)(void *user, const char *path); /* for writing, empty, follows no link */
-    ssize_t (*write)(void *user, int fd, const void *data, size_t size);
-    int (*fsync)(void *user, int fd);
-    int (*close)(void *user, int fd);
-    int (*rename)(void *user, const char *from, const char *to);
-    int (*fsync_folder)(void *user, const char *path); /* the folder of that file */
-};
-extern const struct gn_state_files gn_state_disk; /* the real ones */
-
 enum gn_state_found {
     GN_STATE_NONE, /* there is no file yet */
     GN_STATE_READ,
     GN_STATE_BROKEN, /* there are files, but none that can be used; err says why */
 };
 /* Reads the newer of both. *older is which one the next save replaces, 0 or 1. */
-enum gn_state_found gn_state_read(const struct gn_state_files *files, const char *path,
+enum gn_state_found gn_state_read(const struct gn_disk *disk, const char *path,
                                   struct gn_state *out, int *older, struct gn_err *err);
 /* Writes it in the place of that one. False: both are as they were. */
-bool gn_state_save(const struct gn_state_files *files, const char *path, int older,
+bool gn_state_save(const struct gn_disk *disk, const char *path, int older,
                    const struct gn_state *state, struct gn_err *err);
 
 #endif

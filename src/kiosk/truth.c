@@ -1,7 +1,5 @@
 #include "kiosk/truth.h"
 
-#include <string.h>
-
 #include "core/clock.h"
 #include "kiosk/private.h"
 #include "stage/rays.h"
@@ -23,9 +21,8 @@ static void tell(struct gn_show *s, int percent) {
 void gn_truth_drop(struct gn_show *s) {
     struct gn_show_truth *t = &s->truth;
     gn_rays_destroy(t->rays);
-    gn_frame_destroy(t->frame);
+    gn_view_stop(&t->view);
     t->rays = NULL;
-    t->frame = NULL;
     t->shown = false;
 }
 
@@ -43,10 +40,8 @@ void gn_truth_begin(struct gn_show *s) {
         return;
     }
     gn_truth_drop(s);
-    s->truth = (struct gn_show_truth){.on = true,
-                                      .pauses = !s->kiosk.paused,
-                                      .of.mode = -1,
-                                      .changed_ns = gn_loop_now_ns(s->loop)};
+    s->truth = (struct gn_show_truth){
+        .on = true, .pauses = !s->kiosk.paused, .changed_ns = gn_loop_now_ns(s->loop)};
     if (!s->kiosk.paused) pause(s);
     tell(s, 0);
 }
@@ -78,81 +73,46 @@ int64_t gn_truth_due_ns(const struct gn_show *s) {
 
 /* ---- a frame ---- */
 
-/* Drops rays of another moment or view. */
-static void follow(struct gn_show *s) {
+/* Drops rays of another look, camera or moment. */
+static void follow_shown(struct gn_show *s) {
     struct gn_show_truth *t = &s->truth;
-    const struct gn_frame_opts *f = &s->stage.frame_opts;
-    struct gn_truth_of now;
-    memset(&now, 0, sizeof now); /* with the gaps, for they are compared */
-    memcpy(&now.view, &f->view, sizeof now.view);
-    now.time_ns = s->stage.pose.time_ns;
-    now.width_px = f->width_px;
-    now.height_px = f->height_px;
-    now.mode = s->kiosk.shown.mode;
-    now.turns = s->stage.pose.run.turns;
-    now.speed_less_1 = s->stage.pose.run.speed_less_1;
-    now.start_ns = s->stage.pose.run.start_ns;
-    now.begun_ns = s->stage.pose.begun_ns;
-    now.clips = s->stage.pose.clips;
-    now.over = s->stage.pose.over;
-    now.over_ns = s->stage.pose.over_ns;
-    now.fade = s->stage.pose.fade;
-    now.variant = s->stage.pose.variant;
-    if (memcmp(&now, &t->of, sizeof now) == 0) return;
+    if (t->generation == s->stage.shown.generation) return;
     gn_truth_drop(s);
-    memcpy(&t->of, &now, sizeof now);
+    t->generation = s->stage.shown.generation;
     t->changed_ns = gn_loop_now_ns(s->loop);
 }
 
 static bool has_come(const struct gn_show_truth *t) { return t->rays && gn_rays_are_done(t->rays); }
 
+static struct gn_view *share_shown(struct gn_show *s) {
+    struct gn_view *view = &s->truth.view;
+    gn_view_share(view, &s->stage.shown, &s->stage.shown.opts);
+    GN_LIGHT_SET(&view->opts.shadow.any, technique, GN_TECHNIQUE_TRUTH);
+    view->opts.output.msaa = 0;
+    view->rays = s->truth.rays;
+    return view;
+}
+
 static bool begin_rays(struct gn_show *s, struct gn_err *err) {
-    struct gn_scene_limits limits;
-    const struct gn_plan *plan = gn_stage_plan(&s->stage, s->warnings, err);
-    if (!plan || !gn_stage_limits(s->stage.settings, &limits, err)) return false;
-    limits = gn_scene_limits_or_default(&limits);
-    s->truth.rays = gn_rays_begin(&s->stage, plan, &limits, err);
+    struct gn_view *view = share_shown(s);
+    const struct gn_plan *plan = gn_view_plan(view, s->stage.gl, s->warnings, err);
+    s->truth.rays = plan ? gn_rays_begin(&s->stage, view, plan, err) : NULL;
     return s->truth.rays;
 }
 
-/* Begins to cast, or draws what was cast. */
-static bool use_rays(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
+const struct gn_plan *gn_truth_draw(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
     struct gn_show_truth *t = &s->truth;
-    struct gn_stage *stage = &s->stage;
-    struct gn_frame *const frame = stage->frame;
-    const struct gn_frame_opts opts = stage->frame_opts;
-    bool ok;
-    if (!t->frame) t->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
-    stage->frame = t->frame;
-    stage->frame_opts.shadow.technique = GN_TECHNIQUE_TRUTH;
-    stage->frame_opts.shadow.technique_given = true;
-    stage->frame_opts.msaa = 0;
-    if (has_come(t)) {
-        stage->truth.given = t->rays;
-        ok = gn_stage_draw(stage, time_ns, s->warnings, err);
-        stage->truth.given = NULL;
-    } else {
-        ok = begin_rays(s, err);
-    }
-    t->frame = stage->frame; /* another one where a capability was disproved */
-    stage->frame = frame;
-    stage->frame_opts = opts;
-    return ok;
-}
-
-bool gn_truth_draw(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
-    struct gn_show_truth *t = &s->truth;
+    struct gn_view *view = &s->stage.shown;
     struct gn_err why = {0};
-    gn_stage_pose(&s->stage, time_ns);
-    follow(s);
+    gn_view_pose(view, s->stage.settings, time_ns);
+    follow_shown(s);
     if (has_come(t)) {
         t->shown = true;
-        return use_rays(s, time_ns, err);
-    }
-    const bool rests = gn_loop_now_ns(s->loop) >= t->changed_ns + REST_NS;
-    if (!t->rays && rests && !use_rays(s, time_ns, &why)) {
+        view = share_shown(s);
+    } else if (!t->rays && gn_loop_now_ns(s->loop) >= t->changed_ns + REST_NS &&
+               !begin_rays(s, &why)) {
         gn_truth_end(s);
         gn_show_note(s, "%s", why.text);
     }
-    return gn_stage_draw(&s->stage, time_ns, s->warnings, err);
+    return gn_view_draw(view, &s->stage, time_ns, s->warnings, err);
 }

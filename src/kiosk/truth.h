@@ -8,40 +8,32 @@
 #include <stdint.h>
 
 #include "core/err.h"
-#include "frame/frame.h"
+#include "stage/view.h"
 
 struct gn_show;
 struct gn_rays;
 
 struct gn_show_truth { /* zeroed: off */
     bool on, shown, pauses;
-    struct gn_rays *rays;   /* NULL: none yet */
-    struct gn_frame *frame; /* builds the plans that are drawn with them; NULL: none yet */
-    struct gn_truth_of {
-        struct gn_frame_view_opts view;
-        int64_t time_ns, over_ns;
-        uint32_t width_px, height_px;
-        int mode, clips, over, variant;
-        float fade;
-        int turns; /* these of gn_pose_run */
-        double speed_less_1;
-        int64_t start_ns, begun_ns;
-    } of;               /* what is cast */
-    int64_t changed_ns; /* since then it is the same */
-    int percent;        /* that the caption tells */
-    int64_t told_ns;    /* when it was told */
+    struct gn_rays *rays; /* NULL: none yet */
+    struct gn_view view;  /* that they are cast for, and drawn in */
+    uint64_t generation;  /* of the shown view, of which they are */
+    int64_t changed_ns;   /* when that changed last */
+    int percent;          /* that the caption shows */
+    int64_t told_ns;      /* since when */
 };
 
 /* The scene's time stands until the end, which also comes when that goes on. */
 void gn_truth_begin(struct gn_show *show);
 void gn_truth_end(struct gn_show *show);
-/* The thread ends; the scene may go. */
+/* Ends the thread and what belongs to the context; the scene may go. */
 void gn_truth_drop(struct gn_show *show);
-/* Before frames: tells how far it is. */
+/* Before frames: shows how many rays are cast. */
 void gn_truth_step(struct gn_show *show);
 bool gn_truth_wants_frame(const struct gn_show *show);
 int64_t gn_truth_due_ns(const struct gn_show *show); /* when to step again; INT64_MAX: never */
-/* In place of gn_stage_draw() of the shown mode: that, until the truth is there. */
-bool gn_truth_draw(struct gn_show *show, int64_t time_ns, struct gn_err *err);
+/* Draws the truth of the shown view once it is there, until then the shown view itself. NULL on
+ * failure. */
+const struct gn_plan *gn_truth_draw(struct gn_show *show, int64_t time_ns, struct gn_err *err);
 
 #endif

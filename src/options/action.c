@@ -1,7 +1,8 @@
 #include "options/action.h"
 
-#include <stdio.h>
 #include <string.h>
+
+#include "core/text.h"
 
 static const struct {
     const char *name, *argument;
@@ -14,21 +15,19 @@ static const struct {
 const char *gn_action_name(enum gn_action_kind kind) { return rows[kind].name; }
 
 void gn_action_list(char *out, size_t size) {
-    size_t used = 0;
     out[0] = '\0';
-    for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT && used < size; k++)
-        used += (size_t)snprintf(out + used, size - used, "%s%s%s%s", k ? ", " : "", rows[k].name,
-                                 rows[k].argument[0] ? " " : "", rows[k].argument);
+    for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT; k++)
+        gn_text_add(out, size, "%s%s%s%s", k ? ", " : "", rows[k].name,
+                    rows[k].argument[0] ? " " : "", rows[k].argument);
 }
 
-bool gn_turn_parse(const char *text, const char *label, enum gn_turn *out, struct gn_err *err) {
+bool gn_turn_parse(const char *text, enum gn_turn *out, struct gn_err *err) {
     *out = !text ? GN_TURN_OTHER : strcmp(text, "on") == 0 ? GN_TURN_ON : GN_TURN_OFF;
     return *out != GN_TURN_OFF || strcmp(text, "off") == 0 ||
-           gn_fail_usage(err, "%s: \"%.40s\" is not on or off", label, text);
+           gn_fail_usage(err, "\"%.40s\" is not on or off", text);
 }
 
-bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
-                     struct gn_err *err) {
+bool gn_action_parse(const char *text, struct gn_action *out, struct gn_err *err) {
     const size_t word = strcspn(text, " \t");
     const char *name = text + word + strspn(text + word, " \t");
     for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT; k++) {
@@ -36,18 +35,16 @@ bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
         const bool takes_name = rows[k].argument[0], turns = rows[k].argument[0] == '[';
         if (turns) {
             *out = (struct gn_action){.kind = (enum gn_action_kind)k};
-            return gn_turn_parse(name[0] ? name : NULL, label, &out->turn, err);
+            return gn_turn_parse(name[0] ? name : NULL, &out->turn, err);
         }
         if (takes_name && !name[0])
-            return gn_fail_usage(err, "%s: expected \"%s %s\"", label, rows[k].name,
-                                 rows[k].argument);
+            return gn_fail_usage(err, "expected \"%s %s\"", rows[k].name, rows[k].argument);
         if (!takes_name && name[0])
-            return gn_fail_usage(err, "%s: \"%s\": %s takes no argument", label, text,
-                                 rows[k].name);
+            return gn_fail_usage(err, "\"%s\": %s takes no argument", text, rows[k].name);
         *out = (struct gn_action){.kind = (enum gn_action_kind)k, .name = takes_name ? name : NULL};
         return true;
     }
     char list[240];
     gn_action_list(list, sizeof list);
-    return gn_fail_usage(err, "%s: unknown action \"%s\"; expected %s", label, text, list);
+    return gn_fail_usage(err, "unknown action \"%s\"; expected %s", text, list);
 }

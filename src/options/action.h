@@ -48,11 +48,10 @@ enum gn_idle { /* what a kiosk does after idle_after seconds without an event */
 
 const char *gn_action_name(enum gn_action_kind kind); /* "next-scene" */
 void gn_action_list(char *out, size_t size);          /* "none, next, prev, mode NAME, .." */
-/* "on", "off"; NULL: the other. Else a usage error "label: ..". */
-bool gn_turn_parse(const char *text, const char *label, enum gn_turn *out, struct gn_err *err);
+/* "on", "off"; NULL: the other. */
+bool gn_turn_parse(const char *text, enum gn_turn *out, struct gn_err *err);
 /* "next", "pause on", "mode Soft": the name begins behind the first space and points into text,
- * which must live as long as the action. Else a usage error "label: .." that lists the actions. */
-bool gn_action_parse(const char *text, const char *label, struct gn_action *out,
-                     struct gn_err *err);
+ * which must live as long as the action. Else a usage error that lists the actions. */
+bool gn_action_parse(const char *text, struct gn_action *out, struct gn_err *err);
 
 #endif

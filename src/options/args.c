@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "core/text.h"
-#include "options/command.h"
 #include "options/content.h"
 #include "options/file.h"
 #include "options/lesson.h"
@@ -23,8 +22,7 @@ struct args {
     int argc, at;
     struct flag *flags;
     int flag_count;
-    const char *words[1 + GN_SCENES_MAX]; /* command, scenes; of ctl: its own command and words; of
-                                             compare and score: pictures */
+    const char *words[1 + GN_WORDS_MAX]; /* command, and what follows it; bare: a scene */
     int word_count;
 };
 
@@ -84,50 +82,38 @@ static enum gn_command command_of(const char *word) {
     return GN_COMMAND_AUTO;
 }
 
-static bool is_ctl(const struct args *args) {
-    return args->word_count > 0 && command_of(args->words[0]) == GN_COMMAND_CTL;
+/* The row of the command that the first word names, or the bare one. */
+static const struct gn_command_row *command_row(const struct args *args) {
+    return &gn_commands[args->word_count > 0 ? command_of(args->words[0]) : GN_COMMAND_AUTO];
 }
 
-enum { PICTURES = 2 }; /* of compare */
+static bool fail_word(const struct gn_command_row *row, const char *word, struct gn_err *err) {
+    return gn_fail_usage(err, "%s%sunexpected argument \"%.80s\": %s", row->name ? row->name : "",
+                         row->name ? ": " : "", word, row->takes);
+}
 
 static bool add_word(struct args *args, const char *word, struct gn_err *err) {
-    const enum gn_command command =
-        args->word_count > 0 ? command_of(args->words[0]) : GN_COMMAND_AUTO;
-    const bool takes_list = command == GN_COMMAND_SHOW || command == GN_COMMAND_BENCH,
-               is_compare = command == GN_COMMAND_COMPARE, is_score = command == GN_COMMAND_SCORE;
-    if (is_compare && args->word_count == 1 + PICTURES)
-        return gn_fail_usage(err, "compare: unexpected argument \"%.80s\": it takes two pictures",
-                             word);
-    if (is_ctl(args) && args->word_count == 2 + GN_CTL_WORDS_MAX)
-        return gn_fail_usage(err, "ctl %.80s: unexpected argument \"%.80s\"", args->words[1], word);
-    if (!is_ctl(args) && !is_compare && args->word_count == (takes_list ? 1 + GN_SCENES_MAX : 2))
-        return gn_fail_usage(
-            err,
-            takes_list ? "too many scenes, from \"%.80s\" on"
-            : is_score ? "score: unexpected argument \"%.80s\": it takes one picture or folder"
-            : command == GN_COMMAND_LESSON ? "unexpected argument \"%.80s\": one lesson, or all"
-            : command == GN_COMMAND_TAKE
-                ? "take: unexpected argument \"%.80s\": it takes one folder"
-                : "unexpected argument \"%.80s\": only one scene",
-            word);
+    const struct gn_command_row *row = command_row(args);
+    if (args->word_count > row->most) return fail_word(row, word, err);
     args->words[args->word_count++] = word;
     return true;
 }
 
 static bool fail_command(const char *word, struct gn_err *err) {
+    static const char *const others[] = {"help", "version"};
     struct gn_text_guess guess = {0};
-    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
+    char list[200] = "";
+    for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++) {
         gn_text_guess(&guess, word, gn_commands[i].name);
-    gn_text_guess(&guess, word, "help");
-    gn_text_guess(&guess, word, "version");
+        gn_text_add(list, sizeof list, "%s, ", gn_commands[i].name);
+    }
+    for (int i = 0; i < 2; i++) gn_text_guess(&guess, word, others[i]);
     if (guess.name)
         return gn_fail_usage(err, "\"%.80s\" is neither a command nor a file; did you mean %s?",
                              word, guess.name);
-    return gn_fail_usage(
-        err,
-        "\"%.80s\" is neither a command nor a file; the commands are show, "
-        "render, bench, inspect, doctor, ctl, compare, score, lesson, bake, take, help, version",
-        word);
+    return gn_fail_usage(err,
+                         "\"%.80s\" is neither a command nor a file; the commands are %s%s, %s",
+                         word, list, others[0], others[1]);
 }
 
 static bool split_arguments(struct args *args, struct gn_err *err) {
@@ -135,7 +121,8 @@ static bool split_arguments(struct args *args, struct gn_err *err) {
     while (ok && args->at < args->argc) {
         const char *arg = args->argv[args->at++];
         const bool is_value = /* `ctl set exposure -2` */
-            is_ctl(args) && args->word_count > 1 && arg[0] && strchr("0123456789.", arg[1]);
+            args->word_count > 1 && command_row(args)->words == GN_WORDS_REQUEST && arg[0] &&
+            strchr("0123456789.", arg[1]);
         if (only_words || arg[0] != '-' || !arg[1] || is_value)
             ok = add_word(args, arg, err);
         else if (arg[1] != '-')
@@ -172,26 +159,14 @@ static enum gn_command command_now(const struct args *args) {
 
 static bool choose_command(struct args *args, struct gn_err *err) {
     const char *first = args->words[0];
-    const enum gn_command command = first ? command_of(first) : GN_COMMAND_AUTO;
-    const bool bare = command == GN_COMMAND_AUTO;
-    gn_options_run_as(args->options, command);
+    const struct gn_command_row *row = command_row(args);
+    const bool bare = !row->name;
+    const int given = args->word_count - !bare;
+    gn_options_run_as(args->options, (enum gn_command)(row - gn_commands));
     if (bare && first && !strpbrk(first, "./:") && access(first, F_OK) != 0)
         return fail_command(first, err);
-    if (bare && args->words[1])
-        return gn_fail_usage(err, "unexpected argument \"%.80s\": only one scene", args->words[1]);
-    if (command == GN_COMMAND_COMPARE && args->word_count != 1 + PICTURES)
-        return gn_fail_usage(err, "compare: expected two pictures, A and B");
-    if (command == GN_COMMAND_LESSON && args->word_count != 2)
-        return gn_fail_usage(err, "lesson: expected list, all or the name of a lesson");
-    if (command == GN_COMMAND_BAKE && args->word_count != 2)
-        return gn_fail_usage(err, "bake: expected one scene");
-    if (command == GN_COMMAND_TAKE && args->words[1] && find_flag(args, "rollback"))
-        return gn_fail_usage(err, "take: --rollback takes no folder: unexpected argument \"%.80s\"",
-                             args->words[1]);
-    if (command == GN_COMMAND_DOCTOR && args->words[1])
-        return gn_fail_usage(err, "doctor takes no scene: unexpected argument \"%.80s\"",
-                             args->words[1]);
-    return true;
+    if (given > row->most) return fail_word(row, args->words[!bare + row->most], err);
+    return given >= row->least || gn_fail_usage(err, "%s: expected %s", row->name, row->expects);
 }
 
 static bool check_flags(const struct args *args, struct gn_err *err) {
@@ -200,11 +175,9 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
     while (flag < end && flag->row->commands & (1u << command)) flag++;
     if (flag == end) return true;
     char takers[80] = "";
-    size_t used = 0;
     for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++)
         if (flag->row->commands & (1u << i))
-            used += (size_t)snprintf(takers + used, sizeof takers - used, "%s %s", used ? "," : "",
-                                     gn_commands[i].name);
+            gn_text_add(takers, sizeof takers, "%s %s", takers[0] ? "," : "", gn_commands[i].name);
     const char *name = gn_commands[command].name;
     return gn_fail_usage(err, "%s does not go with %s; it goes with%s", flag->label,
                          name ? name : "the bare gnomon", takers);
@@ -217,36 +190,37 @@ static bool load_config(struct gn_options *options, const char *path, struct gn_
     return !path[0] || gn_config_load(options, path, err);
 }
 
+static bool read_lesson(struct args *args, struct gn_err *err) {
+    const char *name = args->words[1];
+    if (!name || strcmp(name, "list") == 0 || strcmp(name, "all") == 0) return true;
+    const struct gn_lesson *lesson = gn_lesson_find(name, err);
+    return lesson && gn_lesson_load(args->options, lesson, err);
+}
+
 /* A kiosk whose file is bad, or cannot be read, runs with its defaults and shows the reason; where
  * content is, with the file alone. */
 static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     char found[PATH_MAX];
     const enum gn_command command = command_now(args);
-    if (command == GN_COMMAND_LESSON) {
-        const char *name = args->words[1];
-        if (!name || strcmp(name, "list") == 0 || strcmp(name, "all") == 0) return true;
-        const struct gn_lesson *lesson = gn_lesson_find(name, err);
-        return lesson && gn_lesson_load(options, lesson, err);
-    }
-    const struct flag *check = find_flag(args, "check");
+    const struct gn_command_row *row = &gn_commands[command];
+    if (row->config == GN_CONFIG_LESSON) return read_lesson(args, err);
+    const struct flag *check = find_flag(args, "check"), *content = find_flag(args, "content");
     const struct flag *named = check ? check : find_flag(args, "config");
-    const bool searches = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW ||
-                          (command == GN_COMMAND_TAKE && !find_flag(args, "content")) ||
-                          (command == GN_COMMAND_CTL && !find_flag(args, "socket"));
+    const bool searches = row->config != GN_CONFIG_ASKED &&
+                          !(row->config_unless && find_flag(args, row->config_unless));
     if (!searches || !gn_config_find(found, sizeof found)) found[0] = '\0';
     const char *path = named ? named->text : found;
-    const struct flag *content = find_flag(args, "content");
-    const bool shows = command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW;
     struct gn_err why = {0};
     if (check) options->errors = gn_arena_alloc(&options->arena, 1, sizeof *options->errors);
     const bool is_read = load_config(options, path, &why);
-    if (is_read &&
-        (check || !shows || gn_options_lay_content(options, content ? content->text : NULL, &why)))
+    if (is_read && (check || !row->lays_content ||
+                    gn_options_lay_content(options, content ? content->text : NULL, &why)))
         return true;
-    const bool is_show = command == GN_COMMAND_SHOW && !check;
-    const bool is_ctl = command == GN_COMMAND_CTL && !(named && why.status != GN_EXIT_USAGE);
-    if (!is_show && !is_ctl) {
+    const bool is_kiosk = row->config == GN_CONFIG_KIOSK && !check;
+    const bool does_without =
+        row->config == GN_CONFIG_OPTIONAL && !(named && why.status != GN_EXIT_USAGE);
+    if (!is_kiosk && !does_without) {
         *err = why;
         return false;
     }
@@ -254,17 +228,10 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     gn_options_init(options, command);
     if (is_read) load_config(options, path, NULL);
     options->config_error = gn_arena_strdup(&options->arena, why.text);
-    if (is_show)
+    if (is_kiosk)
         gn_warn(warnings, "%s (running with %s)", why.text,
                 is_read && path[0] ? path : "the defaults");
     return true;
-}
-
-/* Its words are no scenes. */
-static bool takes_words(enum gn_command command) {
-    return command == GN_COMMAND_CTL || command == GN_COMMAND_COMPARE ||
-           command == GN_COMMAND_SCORE || command == GN_COMMAND_LESSON ||
-           command == GN_COMMAND_TAKE;
 }
 
 static bool apply_flags(struct args *args, struct gn_err *err) {
@@ -274,8 +241,8 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
         if (!gn_options_set(options, flag->row, flag->text, GN_SOURCE_FLAG, flag->label, err))
             return false;
     }
-    if (takes_words(command_now(args))) {
-        const char **words = gn_arena_alloc(&options->arena, 1 + GN_CTL_WORDS_MAX, sizeof *words);
+    if (command_row(args)->words != GN_WORDS_SCENES) {
+        const char **words = gn_arena_alloc(&options->arena, GN_WORDS_MAX, sizeof *words);
         if (!words) return gn_fail(err, "no memory left");
         options->word_count = args->word_count - 1;
         memcpy(words, args->words + 1, (size_t)options->word_count * sizeof *words);

@@ -1,9 +1,7 @@
 #include "options/binding.h"
 
-#include <stdio.h>
-#include <string.h>
-
 #include "core/key.h"
+#include "core/text.h"
 
 static const struct gn_button_config defaults[] = {
     {.opts =
@@ -43,13 +41,10 @@ int gn_buttons_opts(const struct gn_buttons *buttons, struct gn_button_opts *out
 
 bool gn_buttons_have_key(const struct gn_buttons *buttons, unsigned key) {
     for (int i = 0; i < buttons->count; i++) {
-        char name[40];
-        for (const char *at = buttons->items[i].opts.keys; at && *at;) {
-            const size_t length = strcspn(at, " ");
-            snprintf(name, sizeof name, "%.*s", (int)length, at);
+        char name[64];
+        for (const char *at = buttons->items[i].opts.keys;
+             at && gn_text_word(&at, name, sizeof name);)
             if (gn_key_find(name) == key) return true;
-            at += length + strspn(at + length, " ");
-        }
     }
     return false;
 }

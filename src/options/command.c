@@ -1,6 +1,5 @@
 #include "options/command.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "core/text.h"
@@ -42,12 +41,10 @@ int gn_ctl_words_least(enum gn_ctl command) {
 }
 
 void gn_ctl_list(char *out, size_t size) {
-    size_t used = 0;
     out[0] = '\0';
-    for (int i = 0; i < GN_CTL_COUNT && used < size; i++)
-        used += (size_t)snprintf(out + used, size - used, "%s %s%s%s", i ? "," : "",
-                                 gn_ctl_rows[i].name, gn_ctl_rows[i].words[0] ? " " : "",
-                                 gn_ctl_rows[i].words);
+    for (int i = 0; i < GN_CTL_COUNT; i++)
+        gn_text_add(out, size, "%s %s%s%s", i ? "," : "", gn_ctl_rows[i].name,
+                    gn_ctl_rows[i].words[0] ? " " : "", gn_ctl_rows[i].words);
 }
 
 const char *gn_ctl_nearest(const char *misspelled) {

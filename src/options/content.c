@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "options/file.h"
+#include "options/section.h"
 #include "options/value.h"
 #include "take/shown.h"
 
@@ -21,10 +22,7 @@ static bool is_among(const size_t *offsets, size_t size, const struct gn_option_
 }
 
 static bool is_of_content(const struct gn_option_row *row) {
-    static const char *const sections[] = {"scene", "camera", "light"};
-    for (size_t i = 0; row->section && i < sizeof sections / sizeof sections[0]; i++)
-        if (strcmp(row->section, sections[i]) == 0) return true;
-    return false;
+    return row->section && gn_section_find(row->section, false)->of_content;
 }
 
 static void copy_row(struct gn_settings *to, const struct gn_settings *from, int i) {

@@ -8,8 +8,8 @@
 
 #include "core/file.h"
 #include "core/text.h"
-#include "options/buttons.h"
 #include "options/ini.h"
+#include "options/section.h"
 #include "options/value.h"
 
 #define FILE_MAX (1024 * 1024)
@@ -31,138 +31,122 @@ bool gn_config_find(char *path, size_t size) {
 struct load {
     struct gn_options *options;
     const char *path;
-    struct gn_mode *modes;
-    struct gn_light_section *lights;
-    struct gn_override **first; /* in a mode's or a light's section: its settings; else NULL */
-    struct gn_override **link;  /* where its next setting goes */
-    bool in_mode, in_light, in_button; /* what the section is of; of a light with a name */
-    struct gn_config_buttons buttons;
-    int lines[GN_OPTION_COUNT]; /* where each was set outside of modes */
+    const struct gn_section_row *section; /* that is read */
+    struct gn_section *one;               /* of many: which; else NULL */
+    struct gn_sections many[GN_SECTION_COUNT];
+    int lines[GN_OPTION_COUNT]; /* where each was set in sections that are not of many */
 };
 
 /* ---- sections ------------------------------------------------------------------------------ */
 
-static bool open_mode(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    struct gn_options *options = load->options;
-    if (!line->name)
-        return gn_fail_usage(err, "%s: a mode has a name: [mode \"NAME\"]", line->where);
-    for (int i = 0; i < options->mode_count; i++)
-        if (strcmp(load->modes[i].name, line->name) == 0)
-            return gn_fail_usage(err, "%s: mode \"%s\" is there already, in line %d", line->where,
-                                 line->name, load->modes[i].line);
-    if (options->mode_count == GN_MODES_MAX)
-        return gn_fail_usage(err, "%s: more than %d modes", line->where, GN_MODES_MAX);
-    struct gn_mode *mode = &load->modes[options->mode_count++];
-    mode->name = gn_arena_strdup(&options->arena, line->name);
-    mode->line = line->number;
-    load->first = load->link = &mode->first;
-    return mode->name || gn_fail(err, "%s: no memory left", line->where);
-}
-
-static bool open_light(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    struct gn_settings *all = &load->options->all[0];
+static bool open_one(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
+    struct gn_sections *all = &load->many[load->section - gn_section_rows];
     struct gn_arena *arena = &load->options->arena;
-    for (int i = 0; i < all->light_count; i++)
-        if (strcmp(load->lights[i].name, line->name) == 0)
-            return gn_fail_usage(err, "%s: light \"%s\" is there already, in line %d", line->where,
-                                 line->name, load->lights[i].line);
-    if (all->light_count == GN_LIGHT_SECTIONS_MAX)
-        return gn_fail_usage(err, "%s: more than %d lights", line->where, GN_LIGHT_SECTIONS_MAX);
-    if (!load->lights)
-        load->lights = gn_arena_alloc(arena, GN_LIGHT_SECTIONS_MAX, sizeof *load->lights);
-    if (!load->lights) return gn_fail(err, "%s: no memory left", line->where);
-    all->lights = load->lights;
-    struct gn_light_section *light = &load->lights[all->light_count++];
-    light->name = gn_arena_strdup(arena, line->name);
-    light->label = gn_arena_strdup(arena, line->where);
-    light->line = line->number;
-    load->first = load->link = &light->first;
-    return (light->name && light->label) || gn_fail(err, "%s: no memory left", line->where);
+    const char *kind = line->section;
+    if (load->section->one_word && line->name[strcspn(line->name, " \t")])
+        return gn_fail_usage(err, "%s: %s \"%s\": a %s's name has no spaces", line->where, kind,
+                             line->name, kind);
+    for (int i = 0; i < all->count; i++)
+        if (strcmp(all->items[i].name, line->name) == 0)
+            return gn_fail_usage(err, "%s: %s \"%s\" is there already, in line %d", line->where,
+                                 kind, line->name, all->items[i].line);
+    if (all->count == GN_SECTIONS_MAX)
+        return gn_fail_usage(err, "%s: more than %d %ss", line->where, GN_SECTIONS_MAX, kind);
+    if (!all->items) all->items = gn_arena_alloc(arena, GN_SECTIONS_MAX, sizeof *all->items);
+    const struct gn_section one = {.name = gn_arena_strdup(arena, line->name),
+                                   .label = gn_arena_strdup(arena, line->where),
+                                   .line = line->number};
+    if (!all->items || !one.name || !one.label)
+        return gn_fail(err, "%s: no memory left", line->where);
+    load->one = &all->items[all->count++];
+    *load->one = one;
+    return true;
 }
 
 static bool open_section(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
-    static const char *const plain[] = {"display", "scene", "render",  "camera",
-                                        "light",   "kiosk", "schedule"};
-    struct gn_options *options = load->options;
-    struct gn_config_buttons *buttons = &load->buttons;
-    load->first = NULL;
-    load->in_mode = strcmp(line->section, "mode") == 0;
-    load->in_button = strcmp(line->section, "button") == 0;
-    if (load->in_mode) return open_mode(load, line, err);
-    load->in_light = line->name && strcmp(line->section, "light") == 0;
-    if (load->in_light) return open_light(load, line, err);
-    if (load->in_button) {
-        buttons->arena = &options->arena;
-        if (!buttons->buttons)
-            buttons->buttons = gn_arena_alloc(buttons->arena, 1, sizeof *buttons->buttons);
-        if (!buttons->buttons) return gn_fail(err, "%s: no memory left", line->where);
-        options->buttons = buttons->buttons;
-        return gn_config_button_open(buttons, line, err);
-    }
-    for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
-        if (strcmp(line->section, plain[i]) == 0)
-            return !line->name ||
-                   gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
-    return gn_fail_usage(err,
-                         "%s: unknown section [%s]; expected [display], [scene], [render], "
-                         "[camera], [light], [kiosk], [schedule], [mode \"NAME\"], "
-                         "[light \"NAME\"] or [button \"NAME\"]",
-                         line->where, line->section);
+    load->one = NULL;
+    load->section = gn_section_find(line->section, line->name);
+    if (load->section) return !line->name || open_one(load, line, err);
+    const struct gn_section_row *other = gn_section_find(line->section, !line->name);
+    if (other && line->name)
+        return gn_fail_usage(err, "%s: [%s] has no name", line->where, line->section);
+    if (other)
+        return gn_fail_usage(err, "%s: a %s has a name: [%s]", line->where, line->section,
+                             other->title);
+    char list[200];
+    gn_section_list(list, sizeof list);
+    return gn_fail_usage(err, "%s: unknown section [%s]; expected %s", line->where, line->section,
+                         list);
 }
 
 /* ---- settings ------------------------------------------------------------------------------ */
 
-static bool fail_key(const struct gn_ini_line *line, const char *section, struct gn_err *err) {
-    char keys[400] = "", key[64], near[64];
+static bool fail_key(const struct gn_ini_line *line, const struct gn_section_row *section,
+                     struct gn_err *err) {
+    char keys[400] = "", names[GN_OPTION_COUNT][40]; /* the nearest is one of all */
     struct gn_text_guess guess = {0};
-    size_t used = 0;
-    for (int i = 0; i < GN_OPTION_COUNT; i++) {
-        const struct gn_option_row *row = &gn_option_rows[i];
-        gn_option_key(row, key, sizeof key);
-        if (gn_option_find_key(section, key) != row) { /* its whole name, if that may be there */
-            const struct gn_option_row whole = {.name = row->name};
-            gn_option_key(&whole, key, sizeof key);
-            if (gn_option_find_key(section, key) != row) continue;
-        }
-        gn_text_guess(&guess, line->key, key);
-        if (guess.name == key) {
-            snprintf(near, sizeof near, "%s", key);
-            guess.name = near;
-        }
-        if (used < sizeof keys) /* the first ones; the nearest is one of all */
-            used +=
-                (size_t)snprintf(keys + used, sizeof keys - used, "%s %s", used ? "," : "", key);
+    int count;
+    const struct gn_option_row *rows = gn_section_options(section, &count);
+    for (int i = 0; i < count; i++) {
+        if (!gn_section_key(section, &rows[i], names[i], sizeof names[i])) continue;
+        gn_text_guess(&guess, line->key, names[i]);
+        gn_text_add(keys, sizeof keys, "%s %s", keys[0] ? "," : "", names[i]);
     }
     if (!guess.name)
         return gn_fail_usage(err, "%s: unknown key \"%s\"; keys of [%s]:%s", line->where, line->key,
                              line->section, keys);
     return gn_fail_usage(err, "%s: unknown key \"%s\" in [%s]; expected %s", line->where, line->key,
-                         line->section, near);
+                         line->section, guess.name);
 }
 
-static struct gn_override *find_override(struct gn_override *override,
-                                         const struct gn_option_row *row) {
-    while (override && override->row != row) override = override->next;
-    return override;
+/* Of many the same value, or the same word in it, is of one alone where the row says so. */
+static bool check_unique(const struct load *load, const struct gn_override *setting,
+                         struct gn_err *err) {
+    const struct gn_sections *all = &load->many[load->section - gn_section_rows];
+    char text[200];
+    for (int i = 0; setting->row->unique && i < all->count; i++) {
+        const struct gn_override *other = gn_section_setting(&all->items[i], setting->row);
+        if (other && gn_value_shared(setting->row, setting->value, other->value, text, sizeof text))
+            return gn_fail_usage(err, "%s: \"%s\" is %.*s \"%s\"'s already, in line %d",
+                                 setting->label, text, (int)strcspn(load->section->title, " "),
+                                 load->section->title, all->items[i].name, other->line);
+    }
+    return true;
 }
 
-static int line_before(struct load *load, const struct gn_option_row *row) {
-    if (row->kind == GN_KIND_LIMIT || (row->kind == GN_KIND_SCENES && !load->in_mode))
+/* A setting of one of many; what it sets again is added to. */
+static bool set_one(struct load *load, const struct gn_option_row *row, const char *text,
+                    const struct gn_override *as, struct gn_err *err) {
+    struct gn_arena *arena = &load->options->arena;
+    struct gn_override **link = &load->one->first;
+    while (*link && (*link)->row != row) link = &(*link)->next;
+    if (*link)
+        return gn_options_parse(load->options, row, text, (*link)->value, arena, as->label, err);
+    struct gn_override *setting = gn_arena_alloc(arena, 1, sizeof *setting);
+    void *value = gn_arena_alloc(arena, 1, gn_value_size(row->kind));
+    const char *label = gn_arena_strdup(arena, as->label);
+    if (!setting || !value || !label) return gn_fail(err, "%s: no memory left", as->label);
+    *setting = (struct gn_override){.row = row, .value = value, .label = label, .line = as->line};
+    if (!gn_options_parse(load->options, row, text, value, arena, label, err) ||
+        !check_unique(load, setting, err))
+        return false;
+    *link = setting;
+    return true;
+}
+
+static int line_before(const struct load *load, const struct gn_option_row *row) {
+    if (row->kind == GN_KIND_LIMIT || (row->kind == GN_KIND_SCENES && !load->one))
         return 0; /* may be given again */
-    if (!load->first) return load->lines[row - gn_option_rows];
-    const struct gn_override *override = find_override(*load->first, row);
-    return override ? override->line : 0;
+    if (!load->one) return load->lines[row - gn_option_rows];
+    const struct gn_override *setting = gn_section_setting(load->one, row);
+    return setting ? setting->line : 0;
 }
 
 static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *err) {
     struct load *load = user;
     if (!line->key) return open_section(load, line, err);
-    if (load->in_button) return gn_config_button_set(&load->buttons, line, err);
-    const char *section = load->in_mode    ? NULL
-                          : load->in_light ? GN_SECTION_ONE_LIGHT
-                                           : line->section;
-    const struct gn_option_row *row = gn_option_find_key(section, line->key);
-    if (!row) return fail_key(line, section, err);
+    const struct gn_option_row *row = gn_section_find_key(load->section, line->key);
+    if (!row) return fail_key(line, load->section, err);
     if (line_before(load, row))
         return gn_fail_usage(err, "%s: %s is set already, in line %d", line->where, line->key,
                              line_before(load, row));
@@ -175,38 +159,25 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
         snprintf(path, sizeof path, "%.*s%s", (int)(slash - load->path + 1), load->path, text);
         text = path;
     }
-    if (!load->first) {
-        load->lines[row - gn_option_rows] = line->number;
-        return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
-    }
-    struct gn_arena *arena = &load->options->arena;
-    struct gn_override *override = find_override(*load->first, row);
-    if (override)
-        return gn_options_parse(load->options, row, text, override->value, arena, label, err);
-    override = gn_arena_alloc(arena, 1, sizeof *override);
-    void *value = gn_arena_alloc(arena, 1, gn_value_size(row->kind));
-    const char *kept = gn_arena_strdup(arena, label);
-    if (!override || !value || !kept) return gn_fail(err, "%s: no memory left", label);
-    if (!gn_options_parse(load->options, row, text, value, arena, label, err)) return false;
-    *override =
-        (struct gn_override){.row = row, .value = value, .label = kept, .line = line->number};
-    *load->link = override;
-    load->link = &override->next;
-    return true;
+    const struct gn_override as = {.label = label, .line = line->number};
+    if (load->one) return set_one(load, row, text, &as, err);
+    load->lines[row - gn_option_rows] = line->number;
+    return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
 }
 
 bool gn_config_load_text(struct gn_options *options, const char *path, const char *text,
                          size_t size, struct gn_err *err) {
     struct load load = {.options = options, .path = path};
-    load.modes = gn_arena_alloc(&options->arena, GN_MODES_MAX, sizeof *load.modes);
-    options->modes = load.modes;
     options->config_path = gn_arena_strdup(&options->arena, path);
-    if (!load.modes || !options->config_path) return gn_fail(err, "%s: no memory left", path);
+    if (!options->config_path) return gn_fail(err, "%s: no memory left", path);
     struct gn_errors *errors = options->errors;
     if (!gn_ini_parse(path, text, size, on_line, &load, errors, err)) return false;
-    if (!load.buttons.buttons || (errors && errors->count))
-        return true; /* all may follow from those */
-    return gn_config_button_check(&load.buttons, options, path, err) || gn_errors_take(errors, err);
+    const bool checks = !errors || errors->count == 0; /* else all may follow from those */
+    for (int i = 0; i < GN_SECTION_COUNT; i++)
+        if (load.many[i].count && !gn_section_rows[i].take(options, &load.many[i], checks, err) &&
+            !gn_errors_take(errors, err))
+            return false;
+    return true;
 }
 
 bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err) {

@@ -1,10 +1,10 @@
 #include "options/options.h"
 
 #include <assert.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "options/value.h"
 #include "shadow/technique.h"
 
@@ -100,19 +100,15 @@ int gn_options_find_mode(const struct gn_options *options, const char *name) {
 }
 
 void gn_options_list_modes(const struct gn_options *options, char *out, size_t size) {
-    size_t used = 0;
     out[0] = '\0';
-    for (int i = 0; i < options->mode_count && used < size; i++)
-        used += (size_t)snprintf(out + used, size - used, "%s \"%s\"", i ? "," : "",
-                                 options->modes[i].name);
+    for (int i = 0; i < options->mode_count; i++)
+        gn_text_add(out, size, "%s \"%s\"", i ? "," : "", options->modes[i].name);
 }
 
 static bool fail_technique(const char *name, struct gn_err *err) {
     char names[160] = "";
-    size_t used = 0;
-    for (int i = 0; i < GN_TECHNIQUE_COUNT && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "",
-                                 gn_techniques[i].name);
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++)
+        gn_text_add(names, sizeof names, "%s%s", i ? ", " : "", gn_techniques[i].name);
     return gn_fail_usage(err, "there is no shadow technique '%s'; there are %s", name, names);
 }
 

@@ -8,20 +8,13 @@
 #include "options/binding.h"
 #include "options/settings.h"
 
-struct gn_mode {
-    const char *name;
-    int line;
-    struct gn_override *first; /* in the order of the file; NULL: it changes nothing */
-};
-#define GN_MODES_MAX 32
-
 struct gn_options {
     const struct gn_settings *settings; /* those of --mode, or without any; in `all` */
     struct gn_settings
         *all; /* [0] without any mode; then one for each mode, see gn_options_resolve() */
     int all_count;
 
-    const struct gn_mode *modes; /* of the INI file, in its order */
+    const struct gn_section *modes; /* of the INI file, in its order */
     int mode_count;
     const char *home; /* the mode that a kiosk begins in and returns to, whichever is shown; NULL:
                          the one without settings of its own */

@@ -37,39 +37,39 @@ GN_OPTION(.name = "turntable-rest", .section = "scene", .kind = GN_KIND_SECONDS,
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
           .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
-          .help = "shadow technique, cone for a light made for a scene without any; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow))
+          .help = "shadow technique, cone for a light made for a scene without any; for bench a comma-separated list", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(technique), .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
-          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.map_px))
+          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_px), .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
-          .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.map_format))
+          .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_format), .offset = FIELD(render.map_format))
 GN_OPTION(.name = "map-clear", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_ends, .value = "END", .fallback = "far",
           .help = "end of the light's distances that maps are cleared to, but depth textures; near is wrong, for gnomon lesson clear", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_clears_near))
 GN_OPTION(.name = "cascades", .section = "render", .kind = GN_KIND_CHOICE, .choices = cascade_counts, .value = "N", .fallback = "auto",
-          .help = "number of maps that share the view of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.cascades))
+          .help = "number of maps that share the view of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(cascades), .offset = FIELD(render.cascades))
 GN_OPTION(.name = "cast-faces", .section = "render", .kind = GN_KIND_CHOICE, .choices = cast_faces, .value = "FACES", .fallback = "auto",
-          .help = "faces that cast into shadow maps: as the scene says of each thing (auto), or of all things those that face the light, face away from it, both, or what lies in the middle between the two", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.cast_faces))
+          .help = "faces that cast into shadow maps: as the scene says of each thing (auto), or of all things those that face the light, face away from it, both, or what lies in the middle between the two", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(faces), .offset = FIELD(render.cast_faces))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
           .help = "draw planar shadows with a mask texture (edges one texel soft), the stencil buffer (sharp edges) or the mean of masks over the lamp (exact penumbrae)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar))
 GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",
           .help = "number of points of the lamp with planar soft; where frames follow each other, 16 more with each frame in which nothing moves", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_points))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "auto",
-          .help = "number of samples of disk, poisson, white, pcss (auto: 16) and cone (auto: 12; 8 to 16)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.taps))
+          .help = "number of samples of disk, poisson, white, pcss (auto: 16) and cone (auto: 12; 8 to 16)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(taps), .offset = FIELD(render.taps))
 GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
           .help = "do not rotate the sample pattern per pixel (banding instead of noise)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps_fixed))
 GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",
           .help = "limit on filtered maps updated in one frame when many lights move; 0: no limit", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.filter_budget))
 GN_OPTION(.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
-          .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow_strength))
+          .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(strength), .offset = FIELD(render.shadow_strength))
 GN_OPTION(.name = "shadow-specular", .section = "render", .kind = GN_KIND_EV, .max = 1, .value = "auto|X", .fallback = "auto",
-          .help = "share of highlights that stays in shadow; as the scene says, else as of the rest", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.shadow_specular))
+          .help = "share of highlights that stays in shadow; as the scene says, else as of the rest", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(specular), .offset = FIELD(render.shadow_specular))
 GN_OPTION(.name = "bias", .section = "render", .kind = GN_KIND_EV, .max = 100, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
-          .help = "bias of shadow maps: 0 shows acne, large ones detach shadows from what casts them", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.bias_texels))
+          .help = "bias of shadow maps: 0 shows acne, large ones detach shadows from what casts them", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(bias_texels), .offset = FIELD(render.bias_texels))
 GN_OPTION(.name = "filter-radius", .section = "render", .kind = GN_KIND_EV, .min = 1, .max = 32, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
-          .help = "radius of the filter of disk, poisson and white (3 by itself), of pcf (1.5; at most 2) and of the blur of vsm, evsm and msm (1.5 to 4.5, by the light's size)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.filter_radius_px))
+          .help = "radius of the filter of disk, poisson and white (3 by itself), of pcf (1.5; at most 2) and of the blur of vsm, evsm and msm (1.5 to 4.5, by the light's size)", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(filter_radius_px), .offset = FIELD(render.filter_radius_px))
 GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .choices = slide_aspects, .value = "SHAPE", .fallback = "square",
-          .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_as_picture))
+          .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(slide_as_picture), .offset = FIELD(render.slide_as_picture))
 GN_OPTION(.name = "slide-far", .section = "render", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
-          .help = "depth in the light's cone at which the picture of a slide ends, as the scene says (auto); 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(render.slide_far_m))
+          .help = "depth in the light's cone at which the picture of a slide ends, as the scene says (auto); 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(slide_far_m), .offset = FIELD(render.slide_far_m))
 GN_OPTION(.name = "environment", .section = "render", .kind = GN_KIND_PATH, .choices = environments, .value = "auto|studio|none|FILE.hdr", .fallback = "auto",
           .help = "light from all directions: the studio inside the program, a Radiance picture, or none; by itself studio for a scene without lights of its own, and in others only as reflections of metal", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment))
 GN_OPTION(.name = "environment-turn", .section = "render", .kind = GN_KIND_NUMBER, .min = -360, .max = 360, .value = "DEG", .unit = "degrees", .fallback = "0",
@@ -112,15 +112,15 @@ GN_OPTION(.name = "light-elevation", .key = "elevation", .section = "light", .ki
 GN_OPTION(.name = "light-follow", .key = "follow", .section = "light", .kind = GN_KIND_CHOICE, .choices = follows, .value = "WHAT", .fallback = "world",
           .help = "what the made light stands still in: the scene, or the picture, so that it turns with the camera, also by a turntable or the mouse", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.follows_camera))
 GN_OPTION(.name = "light-color", .key = "color", .section = "light", .kind = GN_KIND_COLOR, .choices = light_colors, .value = "COLOUR", .fallback = "auto",
-          .help = "colour of the made light, #rrggbb; how bright it is does not count", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(light.color))
+          .help = "colour of the made light, #rrggbb; how bright it is does not count", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(hue), .offset = FIELD(light.color))
 GN_OPTION(.name = "light-lux", .key = "lux", .section = "light", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|LUX", .unit = "lux", .fallback = "auto",
-          .help = "illuminance by the made light; 2.8 by itself. With --exposure 0 a white surface that faces 3.14 lux is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.lux))
+          .help = "illuminance by the made light; 2.8 by itself. With --exposure 0 a white surface that faces 3.14 lux is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .target = LIGHT(intensity), .offset = FIELD(light.lux))
 GN_OPTION(.name = "light-radius", .key = "radius", .section = "light", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",
-          .help = "size of the made light, by which pcss, cone and other soft techniques draw penumbrae: tangent of its angular radius; of a light that is not directional: metres", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .offset = FIELD(light.radius))
+          .help = "size of the made light, by which pcss, cone and other soft techniques draw penumbrae: tangent of its angular radius; of a light that is not directional: metres", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(radius), .offset = FIELD(light.radius))
 GN_OPTION(.name = "light-intensity", .key = "intensity", .kind = GN_KIND_EV, .max = 1e9, .value = "auto|X", .fallback = "auto",
-          .help = "intensity in the unit of the light, as in the file and as inspect prints it: candela, of a directional one lux", .of_light = true, .offset = FIELD(light.intensity))
+          .help = "intensity in the unit of the light, as in the file and as inspect prints it: candela, of a directional one lux", .of_light = true, .target = LIGHT(intensity), .offset = FIELD(light.intensity))
 GN_OPTION(.name = "light-on", .key = "on", .kind = GN_KIND_FLAG, .fallback = "yes",
-          .help = "whether the light shines", .of_light = true, .offset = FIELD(light.on))
+          .help = "whether the light shines", .of_light = true, .target = LIGHT(on), .offset = FIELD(light.on))
 /* the camera's place in place of its own; orbits are as in model-viewer */
 GN_OPTION(.name = "camera-theta", .key = "theta", .section = "camera", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "side from which the camera looks at its target: 0 from the front (+Z), 90 from +X; auto: as the camera stands", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.theta_deg))
@@ -188,7 +188,7 @@ GN_OPTION(.name = "screenshots", .section = "kiosk", .kind = GN_KIND_PATH, .valu
 GN_OPTION(.name = "watch", .section = "kiosk", .kind = GN_KIND_FLAG,
           .help = "show the scene and this file again when they change, once they are written to the end; what is wrong with them changes nothing but the status", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.watch))
 GN_OPTION(.name = "state", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "FILE|no", .fallback = "no",
-          .help = "file that mode, scene and counters outlast a restart in; beside it there are FILE.2 and FILE.new. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
+          .help = "file that mode, scene and counters outlast a restart in; beside it there is FILE.2. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
 GN_OPTION(.name = "content", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "DIR|no", .fallback = "no",
           .help = "folder in which gnomon take keeps what USB sticks bring; its kiosk.ini, or its scene, is laid over this file. A service has /var/lib/gnomon/content", .commands = KIOSK | BIT(TAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.content))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",

@@ -11,6 +11,8 @@
 
 #include "options/schedule.h"
 #include "options/table.h"
+#include "scene/scene.h"
+#include "shadow/light_opts.h"
 #include "shadow/technique.h"
 
 struct gn_size {
@@ -27,9 +29,9 @@ struct gn_limit {
 };
 struct gn_limits {
     int count;
-    struct gn_limit items[GN_LIMITS_MAX];
+    struct gn_limit items[GN_LIMITS_MAX]; /* as they were given */
+    struct gn_scene_limits all;           /* what they make */
 };
-#define GN_SCENES_MAX   16
 /* What the path of a lesson's scene inside the program begins with: "lesson:solids". */
 #define GN_SCENE_LESSON "lesson:"
 struct gn_scene_list {
@@ -40,11 +42,6 @@ struct gn_technique_list { /* each once */
     int count;
     uint8_t items[GN_TECHNIQUE_COUNT + 1]; /* enum gn_technique */
 };
-/* --map-format: an encoding for techniques that read the map itself, or moments for those that
- * filter it. */
-#define GN_MAP_FORMAT(encoding, moments) ((int)(encoding) | (int)(moments) << 8)
-#define GN_MAP_FORMAT_ENCODING(format)   ((enum gn_encoding)((format)&0xff))
-#define GN_MAP_FORMAT_MOMENTS(format)    ((enum gn_moments)((format) >> 8))
 enum { GN_MSAA_AUTO = -1 };
 enum { GN_SHOW_SCENE = -1, GN_SHOW_TRANSPARENT = -2, GN_SHOW_SKY = -3 }; /* --background */
 enum gn_picture { GN_PICTURE_SRGB, GN_PICTURE_LINEAR };                  /* --output */
@@ -57,21 +54,25 @@ enum gn_source {
     GN_SOURCE_SET, /* by `ctl set`, until a reload */
 };                 /* later ones override earlier ones */
 
-struct gn_override { /* one setting of a mode or a light, as the file has it */
+struct gn_override { /* one setting of a section of many, as the file has it */
     const struct gn_option_row *row;
     void *value;       /* as in the field */
     const char *label; /* "kiosk.ini:31: camera" */
     int line;
     struct gn_override *next;
 };
-/* [light "NAME"]: settings of the lights of that name alone. */
-enum { GN_LIGHT_SECTIONS_MAX = 32 };
-struct gn_light_section {
+struct gn_section { /* one of many: [mode "NAME"], [light "NAME"], [button "NAME"] */
     const char *name;
     const char *label; /* "kiosk.ini:31" */
     int line;
-    struct gn_override *first; /* in the order of the file; NULL: it changes nothing */
+    struct gn_override *first; /* in the order of the file; NULL: it sets nothing */
 };
+
+/* The setting of a row, or NULL. */
+const struct gn_override *gn_section_setting(const struct gn_section *section,
+                                             const struct gn_option_row *row);
+/* Copies what it sets into the struct in which its rows have their offsets. */
+void gn_section_fill(const struct gn_section *section, void *out);
 
 struct gn_scene_settings {
     union {
@@ -203,7 +204,7 @@ struct gn_settings {
     struct gn_kiosk_settings kiosk;
     struct gn_schedule_settings schedule;
     struct gn_run_settings run;
-    const struct gn_light_section *lights; /* of the file, the same in every mode */
+    const struct gn_section *lights; /* [light "NAME"] of the file, the same in every mode */
     int light_count;
     bool several_scenes;                /* some mode or next-scene shows another one */
     uint8_t source[GN_OPTION_COUNT];    /* enum gn_source of each row */

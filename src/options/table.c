@@ -6,7 +6,7 @@
 #include "display/display.h"
 #include "frame/frame.h"
 #include "input/input.h"
-#include "options/action.h"
+#include "options/command.h"
 #include "options/settings.h"
 
 #define BIT(command) (1u << GN_COMMAND_##command)
@@ -14,6 +14,7 @@
 #define DRAW         (KIOSK | BIT(RENDER) | BIT(BENCH))
 #define ANY          ((1u << GN_COMMAND_COUNT) - 1)
 #define FIELD(name)  offsetof(struct gn_settings, name)
+#define LIGHT(name)  offsetof(struct gn_light_opts, name)
 
 static const struct gn_choice backends[] = {{"auto", 0},
 #define X(file, name) {name, 0},
@@ -97,34 +98,9 @@ static const struct gn_choice ranges[] = {
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
 
 const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {
-    [GN_COMMAND_AUTO] =
-        {NULL, "[OPTION..] [SCENE]",
-         "shows a scene: in a window, without a desktop full screen, else as gnomon.png"},
-    [GN_COMMAND_SHOW] =
-        {"show", "show [OPTION..] [SCENE..]",
-         "the kiosk: full screen without a desktop, runs until SIGTERM or `gnomon ctl quit`"},
-    [GN_COMMAND_RENDER] = {"render", "render [OPTION..] [SCENE] -o FILE",
-                           "draws into a file: .png, .pfm, or frame-%04d.png with --frames"},
-    [GN_COMMAND_BENCH] =
-        {"bench", "bench [OPTION..] [SCENE..]",
-         "measures: time per frame and pass, draws, triangles, bytes, first picture, memory"},
-    [GN_COMMAND_INSPECT] = {"inspect", "inspect [OPTION..] [SCENE]",
-                            "lists a scene's contents, cost and problems"},
-    [GN_COMMAND_DOCTOR] = {"doctor", "doctor [OPTION..]",
-                           "tests this machine and says how to fix problems"},
-    [GN_COMMAND_CTL] = {"ctl", "ctl [OPTION..] COMMAND [WORD..]", "talks to a running kiosk"},
-    [GN_COMMAND_COMPARE] = {"compare", "compare [OPTION..] A B",
-                            "measures how much two pictures differ, .png or .pfm"},
-    [GN_COMMAND_SCORE] = {"score", "score [OPTION..] PICTURE|FOLDER",
-                          "measures shadows in pictures of the open benchmark, of any engine"},
-    [GN_COMMAND_LESSON] =
-        {"lesson", "lesson [OPTION..] list|NAME|all",
-         "shows a fault of shadows and its cures; with -o as a page of pictures and figures"},
-    [GN_COMMAND_BAKE] = {"bake", "bake [OPTION..] SCENE -o FILE.glb",
-                         "writes a scene as one small .glb that boards load and draw fast"},
-    [GN_COMMAND_TAKE] =
-        {"take", "take [OPTION..] [FOLDER]",
-         "takes the folder gnomon of a USB stick over, for a kiosk that has [kiosk] content"},
+#define GN_COMMAND(ID, id, ...) [GN_COMMAND_##ID] = {__VA_ARGS__},
+#include "options/command_rows.h"
+#undef GN_COMMAND
 };
 
 const struct gn_option_row gn_option_rows[GN_OPTION_COUNT] = {
@@ -160,30 +136,15 @@ const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t 
     return buffer;
 }
 
-static bool is_of_section(const struct gn_option_row *row, const char *section) {
-    if (section && strcmp(section, GN_SECTION_ONE_LIGHT) == 0) return row->of_light;
-    if (!row->section) return false;
-    if (!section) return strcmp(row->section, "scene") == 0 || strcmp(row->section, "render") == 0;
-    return strcmp(row->section, section) == 0;
-}
-
-/* Whether a row of [camera] or [light] may have its whole name there. */
-static bool may_have_name(const struct gn_option_row *row, const char *section) {
-    const char *own = row->section ? row->section : "";
-    if (strcmp(own, "light") != 0 && strcmp(own, "camera") != 0) return false;
-    return !section || strcmp(section, "render") == 0 || is_of_section(row, section);
+bool gn_option_is_of(const struct gn_option_row *row, const char *section) {
+    return row->section && strcmp(row->section, section) == 0;
 }
 
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key) {
     char buffer[64];
-    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++) {
-        if (is_of_section(row, section) &&
+    for (const struct gn_option_row *row = gn_option_rows; row < end_of_rows(); row++)
+        if (gn_option_is_of(row, section) &&
             strcmp(gn_option_key(row, buffer, sizeof buffer), key) == 0)
             return row;
-        const struct gn_option_row whole = {.name = row->name};
-        if (may_have_name(row, section) &&
-            strcmp(gn_option_key(&whole, buffer, sizeof buffer), key) == 0)
-            return row;
-    }
     return NULL;
 }

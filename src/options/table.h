@@ -7,24 +7,38 @@
 #include <stddef.h>
 
 enum gn_command {
-    GN_COMMAND_AUTO, /* bare `gnomon [SCENE]` */
-    GN_COMMAND_SHOW,
-    GN_COMMAND_RENDER,
-    GN_COMMAND_BENCH,
-    GN_COMMAND_INSPECT,
-    GN_COMMAND_DOCTOR,
-    GN_COMMAND_CTL,
-    GN_COMMAND_COMPARE,
-    GN_COMMAND_SCORE,
-    GN_COMMAND_LESSON,
-    GN_COMMAND_BAKE,
-    GN_COMMAND_TAKE,
+#define GN_COMMAND(ID, ...) GN_COMMAND_##ID,
+#include "options/command_rows.h"
+#undef GN_COMMAND
     GN_COMMAND_COUNT,
+};
+#define GN_SCENES_MAX 16
+enum { GN_WORDS_MAX = GN_SCENES_MAX, GN_COMMAND_EXAMPLES = 2 };
+enum gn_words {                   /* what follows a command */
+                GN_WORDS_SCENES,  /* of --scene; else they are the options' words: */
+                GN_WORDS_FILES,   /* other files */
+                GN_WORDS_REQUEST, /* a command of ctl, and its words, also numbers below 0 */
+                GN_WORDS_LESSON,  /* a lesson, list or all */
+};
+enum gn_command_config {                     /* the configuration file, beside that of -c FILE */
+                         GN_CONFIG_ASKED,    /* none */
+                         GN_CONFIG_FOUND,    /* the first of gn_config_find(); bad: it fails */
+                         GN_CONFIG_KIOSK,    /* likewise; bad: runs with the defaults and warns */
+                         GN_CONFIG_OPTIONAL, /* likewise; bad: does without it */
+                         GN_CONFIG_LESSON,   /* what the lesson sets, in place of any file */
 };
 struct gn_command_row {
     const char *name;  /* NULL for the bare command */
     const char *usage; /* what follows `gnomon` */
     const char *what;  /* a sentence */
+    const char *examples[GN_COMMAND_EXAMPLES];
+    enum gn_words words;
+    int least, most;             /* how many words */
+    const char *expects, *takes; /* what fewer, and more of them, are told */
+    enum gn_command_config config;
+    const char *config_unless; /* with this option no file is searched; or NULL */
+    bool lays_content;         /* that of [kiosk] content over the file */
+    bool handles_signals;      /* SIGTERM and SIGINT, by itself; else they end the process */
 };
 extern const struct gn_command_row gn_commands[GN_COMMAND_COUNT];
 
@@ -49,6 +63,11 @@ enum gn_option_kind {
     GN_KIND_POINT,      /* double[3], each min..max, or NAN for "auto"; "X,Y,Z" */
     GN_KIND_HOURS,      /* struct gn_schedule; the fallback is the word for no hours */
     GN_KIND_CAPS,       /* const char *: names of gn_cap, a comma between two */
+    GN_KIND_MS,         /* int64_t nanoseconds; whole milliseconds, min..max */
+    GN_KIND_LINE,       /* const char *: a GPIO line: its name, or label:LABEL/OFFSET */
+    GN_KIND_KEYS,       /* const char *: names of keys (core/key.h), spaces between */
+    GN_KIND_NAMES,      /* const char *: two or more names, spaces between */
+    GN_KIND_ACTION,     /* struct gn_binding */
     GN_KIND_COUNT,
 };
 struct gn_choice { /* rows end with a NULL name */
@@ -66,8 +85,8 @@ enum gn_change {                  /* when another value takes effect in a kiosk 
 struct gn_option_row {
     const char *name;    /* --name; the INI key has _ for - */
     const char *key;     /* INI key where it is another one, else NULL */
-    const char *section; /* of the INI file: "display", "scene", "render", "camera", "light",
-                            "kiosk", "schedule"; NULL: only a flag, or a key of [light "NAME"] */
+    const char *section; /* title of its INI section (section.h); NULL: only a flag, or a key of a
+                            section of many */
     char letter;         /* -x, or 0 */
     enum gn_option_kind kind;
     double min, max;
@@ -79,8 +98,11 @@ struct gn_option_row {
     unsigned commands;    /* bit (1 << gn_command) each that takes it; 0: only in the INI file */
     enum gn_change change;
     bool of_light; /* a key of [light "NAME"], too */
+    size_t target; /* offset in struct gn_light_opts of the field that a light gets: every light, of
+                      section "light" the made one, or that of [light "NAME"]; 0: none */
+    bool unique;   /* of a section of many: no two may have the same value, or a word of it */
     bool reopens;  /* a reload that changes it opens the display again */
-    size_t offset; /* of its field in struct gn_settings */
+    size_t offset; /* of its field in struct gn_settings, or in that of a section of many */
 };
 enum {
     GN_OPTION_COUNT = 0
@@ -95,11 +117,11 @@ const struct gn_option_row *gn_option_find(const char *name,
 const struct gn_option_row *gn_option_find_letter(char letter);
 /* Whether the text is one of its choices: of a path, a word in its place. */
 bool gn_option_has_choice(const struct gn_option_row *row, const char *text);
-/* By INI section and key; NULL section: any of scene and render, as in [mode "NAME"];
- * GN_SECTION_ONE_LIGHT: as in [light "NAME"]. In [mode "NAME"], [render] and [light "NAME"] keys of
- * [camera] and [light] also have the whole name of their option: light_azimuth. */
-#define GN_SECTION_ONE_LIGHT "light \"NAME\""
+/* Whether it is of the INI section of that title. */
+bool gn_option_is_of(const struct gn_option_row *row, const char *section);
+/* By the title of an INI section and its own key there, or NULL. See gn_section_find_key(). */
 const struct gn_option_row *gn_option_find_key(const char *section, const char *key);
+/* The INI key of a row. */
 const char *gn_option_key(const struct gn_option_row *row, char *buffer, size_t size);
 
 #endif

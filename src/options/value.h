@@ -18,6 +18,13 @@ size_t gn_value_size(enum gn_option_kind kind);
 /* The value as it is written in a file: "pcf", "1280x720", "auto"; "" for a text that is NULL. */
 void gn_value_text(const struct gn_option_row *row, const void *field, char *out, size_t size);
 
+/* A word that the value may be, by its index from 0: a choice, a technique; NULL: no more. */
+const char *gn_value_word(const struct gn_option_row *row, int index);
+
+/* Whether two fields have the same value or, of names of keys, one in common; out gets it, as the
+ * first field has it. */
+bool gn_value_shared(const struct gn_option_row *row, const void *a, const void *b, char *out,
+                     size_t size);
 /* Whether two fields have the same value. Not for limits and lists of scenes. */
 bool gn_value_same(const struct gn_option_row *row, const void *a, const void *b);
 

@@ -9,7 +9,7 @@
 /* The properties of a material that select its program and state, as words to compare. */
 enum {
     SLOT_WORDS = 2 + 6,
-    FLAG_WORDS = 18,
+    FLAG_WORDS = 15 + GN_FACTORS_SIZE,
     LOOK_WORDS = GN_TEXTURE_SLOT_COUNT * SLOT_WORDS + FLAG_WORDS
 };
 struct look {
@@ -54,10 +54,9 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
         if (m->textures[GN_TEXTURE_LIGHTMAP].texture >= 0)
             memcpy(to, &m->lightmap_intensity, sizeof m->lightmap_intensity);
         to++;
-        if (gn_material_is_coated(m)) memcpy(to, &m->coat, 2 * sizeof m->coat); /* and roughness */
-        memcpy(to + 2, &m->transmission, sizeof m->transmission);
-        to[3] = gn_material_is_tinted(m);
-        to += 4;
+        for (int k = 0; k < GN_LAYER_COUNT; k++, to += 4)
+            if (gn_material_has(m, k)) memcpy(to, m->factors + 4 * k, 4 * sizeof *m->factors);
+        *to++ = gn_material_is_tinted(m);
         *to++ = m->moves ? i + 1 : 0; /* its uniforms are its own */
         assert(to == looks[i].word + LOOK_WORDS);
     }

@@ -34,18 +34,19 @@ struct gn_node gn_fade_node(const struct gn_fade *fade, const struct gn_pose *po
                             const struct gn_node *local, uint32_t i) {
     const struct gn_fade_node *from = &fade->nodes[i];
     struct gn_node out = *local;
-    if (pose->fade >= 1 || local->has_matrix) return out;
-    glm_vec3_lerp((float *)from->translation, (float *)local->translation, pose->fade,
+    if (pose->at.fade >= 1 || local->has_matrix) return out;
+    glm_vec3_lerp((float *)from->translation, (float *)local->translation, pose->at.fade,
                   out.translation);
-    glm_vec3_lerp((float *)from->scale, (float *)local->scale, pose->fade, out.scale);
-    mix_rotation(from->rotation, local->rotation, pose->fade, out.rotation);
+    glm_vec3_lerp((float *)from->scale, (float *)local->scale, pose->at.fade, out.scale);
+    mix_rotation(from->rotation, local->rotation, pose->at.fade, out.rotation);
     return out;
 }
 
 /* Of more parts than there is room for the least one goes to the greatest. */
 static void keep_parts(struct gn_pose *pose) {
     struct gn_pose_part *const parts = pose->before;
-    struct gn_pose_part now = {pose->clips, pose->over, pose->fade < 1 ? pose->fade : 1};
+    struct gn_pose_part now = {pose->at.clips, pose->at.over,
+                               pose->at.fade < 1 ? pose->at.fade : 1};
     const float rest = 1 - now.share;
     int least = 0, greatest = 0;
     for (int i = 0; i < GN_POSE_PARTS; i++) {
@@ -70,7 +71,7 @@ void gn_fade_keep(struct gn_fade *fade, struct gn_pose *pose, const struct gn_no
     keep_parts(pose);
     const struct gn_scene *scene = pose->scene;
     for (uint32_t i = 0; i < scene->node_count; i++) {
-        const bool mixes = pose->node_moves[i] && pose->fade < 1;
+        const bool mixes = pose->node_moves[i] && pose->at.fade < 1;
         const struct gn_node now = mixes ? gn_fade_node(fade, pose, &local[i], i) : local[i];
         struct gn_fade_node *kept = &fade->nodes[i];
         glm_vec3_copy((float *)now.translation, kept->translation);
@@ -95,5 +96,5 @@ void gn_fade_mark(const struct gn_fade *fade, struct gn_pose *pose, struct gn_de
 void gn_fade_weights(const struct gn_fade *fade, const struct gn_pose *pose,
                      struct gn_deformer *deformer) {
     for (uint32_t i = 0; i < pose->scene->deformation.weight_count; i++)
-        deformer->weights[i] += (fade->weights[i] - deformer->weights[i]) * (1 - pose->fade);
+        deformer->weights[i] += (fade->weights[i] - deformer->weights[i]) * (1 - pose->at.fade);
 }

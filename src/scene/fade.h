@@ -17,8 +17,8 @@ struct gn_fade {
 
 void gn_fade_init(struct gn_fade *fade, const struct gn_scene *scene);
 void gn_fade_finish(struct gn_fade *fade);
-/* Keeps what pose->fade shows now of the locals and the weights, and what moves; in pose->before by
- * what clips. */
+/* Keeps what pose->at.fade shows now of the locals and the weights, and what moves; in pose->before
+ * by what clips. */
 void gn_fade_keep(struct gn_fade *fade, struct gn_pose *pose, const struct gn_node *local,
                   const struct gn_deformer *deformer);
 /* What moved moves on, towards what is chosen now. */

@@ -34,14 +34,14 @@ static float find_clips_reach(const struct gn_framing_fit *fit, int clips, int o
 static float find_reach(const struct gn_framing_fit *fit, const vec3 n) {
     const struct gn_pose *pose = fit->pose;
     if (!pose) return find_extents_reach(fit, fit->extent, n);
-    const float reach = find_clips_reach(fit, pose->clips, pose->over, n);
-    if (pose->fade >= 1) return reach;
+    const float reach = find_clips_reach(fit, pose->at.clips, pose->at.over, n);
+    if (pose->at.fade >= 1) return reach;
     float before = 0;
     for (int i = 0; i < GN_POSE_PARTS; i++)
         if (pose->before[i].share > 0)
             before += pose->before[i].share *
                       find_clips_reach(fit, pose->before[i].clips, pose->before[i].over, n);
-    return pose->fade * reach + (1 - pose->fade) * before;
+    return pose->at.fade * reach + (1 - pose->at.fade) * before;
 }
 
 static float reach_between(const struct gn_framing_fit *fit, const vec3 axis, float sign,

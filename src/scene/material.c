@@ -3,9 +3,22 @@
 #include "scene/scene.h"
 
 const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
-#define GN_X(NAME, name, printed, parent, key, texels, shading)                                    \
-    [GN_TEXTURE_##NAME] = {#NAME, #name, parent, key, GN_TEXELS_##texels, GN_SHADING_##shading},
+#define GN_X(NAME, name, printed, path, texels, shading)                                           \
+    [GN_TEXTURE_##NAME] = {#NAME, #name, path, GN_TEXELS_##texels, GN_SHADING_##shading},
     GN_TEXTURE_SLOTS(GN_X)
+#undef GN_X
+};
+
+float gn_material_least_alpha(const struct gn_material *m) {
+    return m->alpha_cutoff > 1.0f ? m->alpha_cutoff : m->alpha_cutoff - 0.5f / 255.0f;
+}
+
+static const struct {
+    int amount;
+    bool reflects;
+} layers[GN_LAYER_COUNT] = {
+#define GN_X(NAME, name, amount, reflects) [GN_LAYER_##NAME] = {amount, reflects},
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
 #undef GN_X
 };
 
@@ -20,12 +33,22 @@ bool gn_material_has_opaque_texels(const struct gn_material *m) {
            (m->base_color[3] >= GN_OPAQUE_ALPHA || m->moves & GN_MOVES_BASE);
 }
 
-bool gn_material_is_coated(const struct gn_material *m) {
-    return m->coat > 0.0f || m->moves & GN_MOVES_COAT;
+bool gn_material_has(const struct gn_material *m, enum gn_layer layer) {
+    bool has = m->moves >> layer & GN_MOVES_FIRST_LAYER;
+    for (int i = 0; i < layers[layer].amount; i++) has |= m->factors[4 * layer + i] > 0.0f;
+    return has;
+}
+
+/* Any layer; of those that reflect, or of all. */
+static bool has_layers(const struct gn_material *m, bool all) {
+    bool has = false;
+    for (int i = 0; i < GN_LAYER_COUNT; i++)
+        has |= (all || layers[i].reflects) && gn_material_has(m, i);
+    return has;
 }
 
 bool gn_material_is_transmissive(const struct gn_material *m) {
-    return m->transmission > 0.0f || m->moves & GN_MOVES_TRANSMISSION;
+    return gn_material_has(m, GN_LAYER_TRANSMISSION);
 }
 
 bool gn_material_is_blended(const struct gn_material *m) {
@@ -34,7 +57,7 @@ bool gn_material_is_blended(const struct gn_material *m) {
 
 bool gn_material_is_clear(const struct gn_material *m) {
     return m->alpha == GN_ALPHA_BLEND ||
-           (m->transmission > 0.5f && !(m->moves & GN_MOVES_TRANSMISSION) &&
+           (m->factors[GN_FACTOR_TRANSMISSION] > 0.5f && !(m->moves & GN_MOVES_TRANSMISSION) &&
             m->textures[GN_TEXTURE_TRANSMISSION].texture < 0);
 }
 
@@ -45,8 +68,7 @@ bool gn_material_is_tinted(const struct gn_material *m) {
 }
 
 bool gn_material_needs_reflections(const struct gn_material *m) {
-    return !m->unlit &&
-           (gn_material_is_metal(m) || gn_material_is_coated(m) || gn_material_is_transmissive(m));
+    return !m->unlit && (gn_material_is_metal(m) || has_layers(m, false));
 }
 
 bool gn_material_has_f0(const struct gn_material *m) {
@@ -54,9 +76,7 @@ bool gn_material_has_f0(const struct gn_material *m) {
 }
 
 bool gn_material_is_specular(const struct gn_material *m) {
-    if (gn_material_is_metal(m) || gn_material_is_coated(m) || gn_material_is_transmissive(m))
-        return true;
-    if (m->moves & GN_MOVES_F0) return true;
+    if (gn_material_is_metal(m) || has_layers(m, true) || m->moves & GN_MOVES_F0) return true;
     if (m->f0[0] == 0 && m->f0[1] == 0 && m->f0[2] == 0) return false;
     return m->roughness < 1.0f || m->moves & GN_MOVES_ROUGH ||
            m->textures[GN_TEXTURE_ROUGHNESS].texture >= 0;
@@ -68,14 +88,13 @@ bool gn_material_is_emissive(const struct gn_material *m) {
 }
 
 bool gn_material_reads(const struct gn_material *m, enum gn_texture_slot slot) {
-    switch (gn_texture_slots[slot].shading) {
+    const enum gn_shading shading = gn_texture_slots[slot].shading;
+    switch (shading) {
     case GN_SHADING_COLOR: return true;
     case GN_SHADING_SPECULAR: return !m->unlit && gn_material_is_specular(m);
-    case GN_SHADING_COAT: return !m->unlit && gn_material_is_coated(m);
-    case GN_SHADING_TRANSMISSION: return !m->unlit && gn_material_is_transmissive(m);
     case GN_SHADING_EMISSION: return !m->unlit && gn_material_is_emissive(m);
     case GN_SHADING_LIGHT:
     case GN_SHADING_AMBIENT: return !m->unlit;
+    default: return gn_material_has(m, shading - GN_SHADING_LAYERS);
     }
-    return false;
 }

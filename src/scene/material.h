@@ -1,7 +1,13 @@
-/* Textures of a material: one row each, from its name in glTF to its name in GLSL. A row gives the
- * enum below, gn_texture_slots[], the features NAME_TEXTURE and NAME_UV1 of a program
- * (frame/feature.h), a texture unit, the sampler u_texture_name and the varying v_uv_name (gl/). To
- * add one: a row here, and the shader that samples it where WITH_NAME_TEXTURE is defined. */
+/* Textures and layers of a material: tables from their names in glTF to those in GLSL.
+ *
+ * A row of a texture gives the enum below, gn_texture_slots[], the features NAME_TEXTURE and
+ * NAME_UV1 of a program (frame/feature.h), a texture unit, the sampler u_texture_name, the varying
+ * v_uv_name and TEXEL_NAME (gl/). To add one: a row here, and the shader that reads it.
+ *
+ * A layer reflects or transmits light beside the base of the material. Its rows give its numbers,
+ * which are loaded, animated and passed to programs as FACTOR_NAME, its textures, and the feature
+ * NAME of a program, whose shader is made with shaders_es/layer/name.glsl. To add one: its rows
+ * here, and that file. */
 #ifndef GN_SCENE_MATERIAL_H
 #define GN_SCENE_MATERIAL_H
 
@@ -10,21 +16,52 @@
 #define GN_CLEARCOAT "extensions.KHR_materials_clearcoat"
 #define GN_TRANSMITS "extensions.KHR_materials_transmission"
 
-/* X(NAME, name, printed name, object of the glTF material or "", texture in it, texels, read for)
- */
+/* From the base upwards; first of each layer L, then its F and T. */
+/* L(NAME, "name", amount, reflects): there is none of it where the first `amount` components of its
+ * factors are 0. reflects: most of what one sees of it are reflections. */
+/* F(layer, NAME, first, components, path in the JSON of a material, default, least, most): a
+ * factor, the components `first` and following of the layer's vec4. */
+/* T(as X of GN_TEXTURE_SLOTS): a texture that is read for the layer. */
+#define GN_LAYERS(L, F, T)                                                                         \
+    L(TRANSMISSION, "transmission", 1, true) /* shows what is behind */                            \
+    F(TRANSMISSION, TRANSMISSION, 0, 1, GN_TRANSMITS ".transmissionFactor", 0, 0, 1)               \
+    T(TRANSMISSION, transmission, "transmission-texture", GN_TRANSMITS ".transmissionTexture",     \
+      LINEAR, TRANSMISSION) /* R: factor */                                                        \
+    L(COAT, "coat", 1, true)                                                                       \
+    F(COAT, COAT, 0, 1, GN_CLEARCOAT ".clearcoatFactor", 0, 0, 1)                                  \
+    F(COAT, COAT_ROUGHNESS, 1, 1, GN_CLEARCOAT ".clearcoatRoughnessFactor", 0, 0, 1)               \
+    T(COAT, coat, "coat-texture", GN_CLEARCOAT ".clearcoatTexture", LINEAR, COAT) /* R: factor */  \
+    T(COAT_ROUGHNESS, coat_roughness, "coat-roughness", GN_CLEARCOAT ".clearcoatRoughnessTexture", \
+      LINEAR, COAT)       /* G */
+#define GN_LEAVE_OUT(...) /* for those kinds of rows that are not wanted */
+
+enum gn_layer {
+#define GN_X(NAME, ...) GN_LAYER_##NAME,
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
+        GN_LAYER_COUNT,
+};
+enum gn_factor { /* the first of its floats in gn_material.factors, a vec4 per layer */
+#define GN_X(LAYER, NAME, first, ...) GN_FACTOR_##NAME = 4 * GN_LAYER_##LAYER + (first),
+                 GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+#undef GN_X
+                     GN_FACTORS_SIZE = 4 * GN_LAYER_COUNT,
+};
+#define GN_X(LAYER, NAME, first, components, ...)                                                  \
+    _Static_assert((first) + (components) <= 4, "a layer has one vec4");
+GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+#undef GN_X
+
+/* X(NAME, name, printed name, path in the JSON of a material, texels, read for) */
 #define GN_TEXTURE_SLOTS(X)                                                                        \
-    X(BASE, base, "base", "pbrMetallicRoughness", "baseColorTexture", SRGB, COLOR) /* and alpha */ \
-    X(ROUGHNESS, roughness, "roughness", "pbrMetallicRoughness", "metallicRoughnessTexture",       \
-      LINEAR, SPECULAR) /* G: roughness, B: metalness */                                           \
-    X(EMISSIVE, emissive, "emissive-texture", "", "emissiveTexture", SRGB, EMISSION)               \
-    X(OCCLUSION, occlusion, "occlusion", "", "occlusionTexture", LINEAR, AMBIENT) /* R */          \
-    X(NORMAL, normal, "normal-map", "", "normalTexture", LINEAR, LIGHT) /* with vertex tangents */ \
-    X(LIGHTMAP, lightmap, "light-map", "", "extensions.MOZ_lightmap", SRGB, AMBIENT)               \
-    X(TRANSMISSION, transmission, "transmission-texture", GN_TRANSMITS, "transmissionTexture",     \
-      LINEAR, TRANSMISSION)                                                       /* R: factor */  \
-    X(COAT, coat, "coat-texture", GN_CLEARCOAT, "clearcoatTexture", LINEAR, COAT) /* R: factor */  \
-    X(COAT_ROUGHNESS, coat_roughness, "coat-roughness", GN_CLEARCOAT, "clearcoatRoughnessTexture", \
-      LINEAR, COAT) /* G */
+    X(BASE, base, "base", "pbrMetallicRoughness.baseColorTexture", SRGB, COLOR) /* and alpha */    \
+    X(ROUGHNESS, roughness, "roughness", "pbrMetallicRoughness.metallicRoughnessTexture", LINEAR,  \
+      SPECULAR) /* G: roughness, B: metalness */                                                   \
+    X(EMISSIVE, emissive, "emissive-texture", "emissiveTexture", SRGB, EMISSION)                   \
+    X(OCCLUSION, occlusion, "occlusion", "occlusionTexture", LINEAR, AMBIENT) /* R */              \
+    X(NORMAL, normal, "normal-map", "normalTexture", LINEAR, LIGHT) /* with vertex tangents */     \
+    X(LIGHTMAP, lightmap, "light-map", "extensions.MOZ_lightmap", SRGB, AMBIENT)                   \
+    GN_LAYERS(GN_LEAVE_OUT, GN_LEAVE_OUT, X)
 
 /* Of one material: with two samplers for each of four lights and the environment these fill the 16
  * that ES 3.0 promises. The last ones of the table are left out with a warning. */
@@ -44,16 +81,17 @@ enum gn_shading {
     GN_SHADING_COLOR,    /* everything; of casters with holes, its alpha */
     GN_SHADING_LIGHT,    /* lit materials */
     GN_SHADING_SPECULAR, /* lit materials with a highlight */
-    GN_SHADING_COAT,
-    GN_SHADING_TRANSMISSION,
     GN_SHADING_EMISSION, /* lit materials that emit; not where only light is added */
     GN_SHADING_AMBIENT,  /* lit materials; not where only light is added */
+    GN_SHADING_LAYERS,   /* materials with that layer */
+#define GN_X(NAME, ...) GN_SHADING_##NAME = GN_SHADING_LAYERS + GN_LAYER_##NAME,
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
 };
 
 struct gn_texture_slot_row {
-    const char *glsl, *name;  /* SLOT_BASE, BASE_UV1 ..; u_texture_base, v_uv_base */
-    const char *parent, *key; /* in the JSON of a material; parent "": the material itself, or
-                                 "extensions.NAME" */
+    const char *glsl, *name; /* SLOT_BASE, BASE_UV1 ..; u_texture_base, v_uv_base */
+    const char *path;        /* in the JSON of a material */
     enum gn_texels texels;
     enum gn_shading shading;
 };
@@ -65,10 +103,14 @@ bool gn_material_is_specular(const struct gn_material *material); /* has a highl
  * where its transmission texture is 0. */
 bool gn_material_has_opaque_texels(const struct gn_material *material);
 #define GN_OPAQUE_ALPHA 0.99f
+/* Alpha below which a masked material has a hole: its cutoff, less half a step of 8 bits, so that
+ * an alpha equal to the cutoff is opaque (glTF 2.0, 3.9.4) however the product of texture, factor
+ * and vertex is rounded. A cutoff over 1 leaves nothing. */
+float gn_material_least_alpha(const struct gn_material *material);
 bool gn_material_is_metal(const struct gn_material *material); /* in places */
-/* Clear coat and transmission, in places; neither of unlit materials. */
-bool gn_material_is_coated(const struct gn_material *material);
-bool gn_material_is_transmissive(const struct gn_material *material);
+/* Has the layer, in places; unlit materials have none. */
+bool gn_material_has(const struct gn_material *material, enum gn_layer layer);
+bool gn_material_is_transmissive(const struct gn_material *material); /* has TRANSMISSION */
 /* What lies behind it shows: by alpha, or by transmission. Drawn after all that is opaque. */
 bool gn_material_is_blended(const struct gn_material *material);
 /* Mostly clear, so that it casts no shadow unless gnomon_cast_alpha asks for one. */

@@ -55,7 +55,7 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
         for (int k = 0; k < 3; k++)
             out->visible &= fabsf(out->box_ws.min[k]) < LIMIT && fabsf(out->box_ws.max[k]) < LIMIT;
     }
-    out->visible &= !(item->hidden_in >> (pose->variant + 1) & 1);
+    out->visible &= !(item->hidden_in >> (pose->at.variant + 1) & 1);
     out->visible &= !(pose->node_hidden && pose->node_hidden[item->node]);
     if (!out->visible) out->box_ws = GN_BOX_EMPTY;
     out->hash = gn_hash(GN_HASH_INIT, out->world_from_item, sizeof out->world_from_item);
@@ -68,7 +68,7 @@ static void pose_node(struct gn_pose *pose, uint32_t i) {
     const struct memory *memory = pose->memory;
     const struct gn_node *node = &memory->local[i];
     struct gn_node mixed;
-    if (pose->fade < 1 && pose->node_moves[i]) {
+    if (pose->at.fade < 1 && pose->node_moves[i]) {
         mixed = gn_fade_node(&memory->fade, pose, node, i);
         node = &mixed;
     }
@@ -87,9 +87,9 @@ static void pose_node(struct gn_pose *pose, uint32_t i) {
 /* ---- clips ---- */
 
 static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
-    if (pose->over == (int)clip) return true;
-    if (pose->clips == GN_POSE_DEFAULT) return pose->scene->animation.clips[clip].on_by_default;
-    return pose->clips == (int)clip;
+    if (pose->at.over == (int)clip) return true;
+    if (pose->at.clips == GN_POSE_DEFAULT) return pose->scene->animation.clips[clip].on_by_default;
+    return pose->at.clips == (int)clip;
 }
 
 /* ---- the pose ---- */
@@ -107,7 +107,8 @@ static void mark_channel(struct gn_pose *pose, const struct gn_channel *channel)
 }
 
 void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips) {
-    *pose = (struct gn_pose){.scene = scene, .clips = clips, .variant = GN_POSE_DEFAULT, .fade = 1};
+    *pose = (struct gn_pose){
+        .scene = scene, .at.clips = clips, .at.variant = GN_POSE_DEFAULT, .at.fade = 1};
     struct memory *memory = pose->memory = gn_xalloc(1, sizeof *memory);
     pose->world_from_node = gn_xalloc(scene->node_count, sizeof *pose->world_from_node);
     pose->node_moves = gn_xalloc(scene->node_count, sizeof *pose->node_moves);
@@ -141,8 +142,8 @@ static void measure_moving(struct gn_pose *pose) {
 
 void gn_pose_choose_variant(struct gn_pose *pose, int variant) {
     const struct gn_scene *scene = pose->scene;
-    if (pose->variant == variant) return;
-    pose->variant = variant;
+    if (pose->at.variant == variant) return;
+    pose->at.variant = variant;
     for (uint32_t i = 0; i < scene->item_count; i++)
         if (scene->items[i].hidden_in) pose_item(pose, i);
     measure_still(pose);
@@ -154,10 +155,10 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
     const struct gn_scene *scene = pose->scene;
     if (fades) gn_fade_keep(&memory->fade, pose, memory->local, &memory->deformer);
     if (fades) gn_values_keep(&memory->values, pose);
-    pose->fade = fades ? 0 : 1;
-    pose->clips = clips;
-    pose->over = over;
-    pose->over_ns = 0;
+    pose->at.fade = fades ? 0 : 1;
+    pose->at.clips = clips;
+    pose->at.over = over;
+    pose->at.over_ns = 0;
     pose->animated = false;
     memory->node_count = memory->item_count = 0;
     if (scene->node_count > 0) {
@@ -244,13 +245,13 @@ int64_t gn_pose_clip_ns(const struct gn_pose_run *run, int64_t length_ns, int64_
 }
 
 bool gn_pose_stands(const struct gn_pose *pose) {
-    const struct gn_pose_run *run = &pose->run;
-    if (pose->fade < 1 || pose->over >= 0) return false;
+    const struct gn_pose_run *run = &pose->at.run;
+    if (pose->at.fade < 1 || pose->at.over >= 0) return false;
     for (uint32_t c = 0; c < pose->scene->animation.clip_count; c++) {
         const int64_t ns = pose->scene->animation.clips[c].duration_ns;
         if (clip_on(pose, c) && run->speed_less_1 != -1 && ns > 0 &&
             (run->turns != GN_POSE_ONCE ||
-             gn_pose_clip_ns(run, ns, pose->time_ns - pose->begun_ns) < ns))
+             gn_pose_clip_ns(run, ns, pose->at.time_ns - pose->at.begun_ns) < ns))
             return false;
     }
     return true;
@@ -278,20 +279,21 @@ static void step_clip(struct gn_pose *pose, const struct gn_clip *clip, int64_t 
 
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     struct memory *memory = pose->memory;
-    pose->time_ns = time_ns;
+    pose->at.time_ns = time_ns;
     if (!pose->animated) return;
     const struct gn_scene_animation *animation = &pose->scene->animation;
-    if (pose->fade < 1) gn_deformer_rest(&memory->deformer, pose);
+    if (pose->at.fade < 1) gn_deformer_rest(&memory->deformer, pose);
     for (uint32_t c = 0; c < animation->clip_count; c++)
-        if (clip_on(pose, c) && pose->over != (int)c)
+        if (clip_on(pose, c) && pose->at.over != (int)c)
             step_clip(pose, &animation->clips[c],
-                      gn_pose_clip_ns(&pose->run, animation->clips[c].duration_ns,
-                                      time_ns - pose->begun_ns));
+                      gn_pose_clip_ns(&pose->at.run, animation->clips[c].duration_ns,
+                                      time_ns - pose->at.begun_ns));
     static const struct gn_pose_run loop = {0};
-    if (pose->over >= 0)
-        step_clip(pose, &animation->clips[pose->over],
-                  gn_pose_clip_ns(&loop, animation->clips[pose->over].duration_ns, pose->over_ns));
-    if (pose->fade < 1) gn_fade_weights(&memory->fade, pose, &memory->deformer);
+    if (pose->at.over >= 0)
+        step_clip(
+            pose, &animation->clips[pose->at.over],
+            gn_pose_clip_ns(&loop, animation->clips[pose->at.over].duration_ns, pose->at.over_ns));
+    if (pose->at.fade < 1) gn_fade_weights(&memory->fade, pose, &memory->deformer);
     if (memory->values.moves) gn_values_apply(&memory->values, pose);
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
     gn_deformer_step(&memory->deformer, pose, true);

@@ -37,20 +37,24 @@ struct gn_pose_part { /* of what is shown: clips and over as in gn_pose */
     float share;
 };
 
+struct gn_moment { /* which clips are shown, and where in them: compared and copied whole */
+    int64_t time_ns;
+    struct gn_pose_run run;
+    int64_t begun_ns; /* the scene's time that is 0 for the clips */
+    int clips;        /* enum gn_pose_clips or a number */
+    int over;         /* number of a clip that plays over those, at over_ns; -1: none */
+    int64_t over_ns;
+    float fade;  /* share of the chosen clips, against what gn_pose_choose_fading() kept; 1: they
+                    alone */
+    int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
+};
+
 struct gn_exact;
 struct gn_pose {
     const struct gn_scene *scene;
-    int clips; /* enum gn_pose_clips or a number */
-    int over;  /* number of a clip that plays over those, at over_ns; -1: none */
-    int64_t over_ns;
-    struct gn_pose_run run;
-    int64_t begun_ns; /* the scene's time that is 0 for the clips */
-    float fade; /* share of the chosen clips, against what gn_pose_choose_fading() kept; 1: they
-                   alone */
-    struct gn_pose_part before[GN_POSE_PARTS]; /* what it kept, in shares of 1 in all; of a fade */
-    int variant; /* number of the variant of materials; GN_POSE_DEFAULT: none */
-    int64_t time_ns;
-    mat4 *world_from_node;      /* scene->node_count */
+    struct gn_moment at;
+    struct gn_pose_part before[GN_POSE_PARTS]; /* what a fade kept, in shares of 1 in all */
+    mat4 *world_from_node;                     /* scene->node_count */
     struct gn_exact *exact;     /* the same, before the origin is moved; NULL: floats are enough */
     struct gn_pose_item *items; /* scene->item_count */
     struct gn_box box_ws;       /* of all visible items */

@@ -4,15 +4,28 @@
 #include <string.h>
 
 #define FLOATS(record, field) (offsetof(struct gn_##record##_record, field) / sizeof(float))
-
-#define UV_MOST 1e6f /* of offset, scale and rotation of a texture that clips move */
+#define COUNT(rows)           (sizeof(rows) / sizeof *(rows))
+#define UV_MOST               1e6f /* of offset, scale and rotation of a texture that clips move */
 
 static const struct gn_property properties[] = {
-#define GN_X(THING, path, record, field, components, moves, least, most)                           \
-    {GN_THING_##THING, path, FLOATS(record, field), components, moves, least, most},
+#define GN_X(THING, path, record, field, components, least, most)                                  \
+    {GN_THING_##THING, path, FLOATS(record, field), components, 0, 0, least, most},
     GN_PROPERTIES(GN_X)
 #undef GN_X
 };
+
+const struct gn_property gn_material_properties[] = {
+#define GN_X(path, field, components, MOVES, ...)                                                  \
+    {GN_THING_MATERIAL, path, FLOATS(material, field), components, GN_MOVES_##MOVES, __VA_ARGS__},
+    GN_MATERIAL_PROPERTIES(GN_X)
+#undef GN_X
+#define GN_X(LAYER, NAME, first, components, path, ...)                                            \
+    {GN_THING_MATERIAL, path,       FLOATS(material, factors) + GN_FACTOR_##NAME, components,      \
+     GN_MOVES_##LAYER,  __VA_ARGS__},
+        GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+#undef GN_X
+};
+const size_t gn_material_property_count = COUNT(gn_material_properties);
 
 static float clamp(float x, float least, float most) { return fminf(fmaxf(x, least), most); }
 
@@ -21,47 +34,41 @@ static float clamp(float x, float least, float most) { return fminf(fmaxf(x, lea
 /* The rest of the pointer behind a path, whose dots are slashes; NULL: it has another one, or there
  * is none. */
 static const char *behind(const char *pointer, const char *path) {
-    if (!pointer || *path == '\0') return pointer;
-    if (*pointer++ != '/') return NULL;
+    if (!pointer || *pointer++ != '/') return NULL;
     for (; *path; path++, pointer++)
         if (*pointer != (*path == '.' ? '/' : *path)) return NULL;
     return pointer;
 }
 
-static bool find_transform(const char *pointer, struct gn_property *out) {
-    static const struct gn_property parts[] = {
-        {.path = "offset", .first = FLOATS(uv, offset), .components = 2},
-        {.path = "scale", .first = FLOATS(uv, scale), .components = 2},
-        {.path = "rotation", .first = FLOATS(uv, rotation_rad), .components = 1},
-    };
-    for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-        const char *rest = behind(pointer, row->parent);
-        rest = behind(behind(rest, row->key), "extensions.KHR_texture_transform");
-        for (size_t i = 0; rest && i < sizeof parts / sizeof *parts; i++) {
-            const char *end = behind(rest, parts[i].path);
-            if (!end || *end) continue;
-            *out = parts[i];
-            out->thing = GN_THING_MATERIAL;
-            out->first +=
-                FLOATS(material, uv) + slot * (sizeof(struct gn_uv_record) / sizeof(float));
-            out->moves = GN_MOVES_UV;
-            out->least = -UV_MOST;
-            out->most = UV_MOST;
-            return true;
-        }
+static bool find_property(const struct gn_property *rows, size_t count, enum gn_thing thing,
+                          const char *pointer, struct gn_property *out) {
+    for (size_t i = 0; i < count; i++) {
+        const char *end = rows[i].thing == thing ? behind(pointer, rows[i].path) : NULL;
+        if (!end || *end) continue;
+        *out = rows[i];
+        return true;
     }
     return false;
 }
 
 bool gn_property_find(enum gn_thing thing, const char *pointer, struct gn_property *out) {
-    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++) {
-        const char *end = properties[i].thing == thing ? behind(pointer, properties[i].path) : NULL;
-        if (!end || *end) continue;
-        *out = properties[i];
+    static const struct gn_property transform[] = {
+#define GN_X(path, field, components)                                                              \
+    {GN_THING_MATERIAL, path,   FLOATS(material, uv[0].field), components, GN_MOVES_UV, 0,         \
+     -UV_MOST,          UV_MOST}
+        GN_X("offset", offset, 2), GN_X("scale", scale, 2), GN_X("rotation", rotation_rad, 1)};
+#undef GN_X
+    if (find_property(properties, COUNT(properties), thing, pointer, out) ||
+        find_property(gn_material_properties, gn_material_property_count, thing, pointer, out))
+        return true;
+    for (uint32_t slot = 0; thing == GN_THING_MATERIAL && slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        const char *rest = behind(behind(pointer, gn_texture_slots[slot].path),
+                                  "extensions.KHR_texture_transform");
+        if (!find_property(transform, COUNT(transform), thing, rest, out)) continue;
+        out->first += slot * (sizeof(struct gn_uv_record) / sizeof(float));
         return true;
     }
-    return thing == GN_THING_MATERIAL && find_transform(pointer, out);
+    return false;
 }
 
 uint32_t gn_record_size(enum gn_thing thing) {
@@ -98,19 +105,12 @@ void gn_camera_make(const struct gn_camera_record *r, struct gn_camera *camera) 
     }
 }
 
-float gn_f0_of_ior(float ior) {
-    const float r = (ior - 1) / (ior + 1);
-    return fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
-}
-
-void gn_f0_make(float f0, float share, const float color[3], vec3 out) {
-    for (int k = 0; k < 3; k++)
-        out[k] = clamp(f0 * clamp(color[k], 0, 1e4f), 0, 1) * clamp(share, 0, 1);
-}
-
-void gn_emissive_make(const float factor[3], float strength, vec3 out) {
-    for (int k = 0; k < 3; k++)
-        out[k] = clamp(clamp(factor[k], 0, 1e9f) * clamp(strength, 0, 1e9f), 0, 1e9f);
+void gn_material_record_init(struct gn_material_record *record) {
+    *record = (struct gn_material_record){.tint = {1, 1, 1}};
+    for (size_t i = 0; i < gn_material_property_count; i++)
+        for (uint32_t k = 0; k < gn_material_properties[i].components; k++)
+            ((float *)record)[gn_material_properties[i].first + k] =
+                gn_material_properties[i].fallback;
 }
 
 /* An affine map; the rotation is clockwise, since v points down. */
@@ -124,38 +124,44 @@ void gn_uv_make(const struct gn_uv_record *r, float m[6]) {
     for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
 }
 
-static void make_moved_uv(const struct gn_uv_record *r, float uv_from_uv[6]) {
-    struct gn_uv_record within = {.rotation_rad = clamp(r->rotation_rad, -UV_MOST, UV_MOST)};
-    for (int k = 0; k < 2; k++) {
-        within.offset[k] = clamp(r->offset[k], -UV_MOST, UV_MOST);
-        within.scale[k] = clamp(r->scale[k], -UV_MOST, UV_MOST);
-    }
-    gn_uv_make(&within, uv_from_uv);
+static float f0_of_ior(float ior) {
+    const float r = (ior - 1) / (ior + 1);
+    return fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
 }
 
-static void make_base(const struct gn_material_record *r, struct gn_material *m) {
-    for (int k = 0; k < 3; k++)
-        m->base_color[k] =
-            clamp(r->base_color[k] * glm_lerp(1, r->tint[k], m->transmission), 0, 1e4f);
-    m->base_color[3] = clamp(r->base_color[3], 0, 1);
+static struct gn_material_record clamped(const struct gn_material_record *record) {
+    struct gn_material_record r = *record;
+    for (size_t i = 0; i < gn_material_property_count; i++) {
+        const struct gn_property *p = &gn_material_properties[i];
+        float *x = (float *)&r + p->first;
+        for (uint32_t k = 0; k < p->components; k++) x[k] = clamp(x[k], p->least, p->most);
+    }
+    float *uv = (float *)r.uv;
+    const size_t floats = sizeof r.uv / (sizeof *uv);
+    for (size_t i = 0; i < floats; i++) uv[i] = clamp(uv[i], -UV_MOST, UV_MOST);
+    return r;
 }
 
-void gn_material_make(const struct gn_material_record *r, struct gn_material *m) {
-    const uint32_t moves = m->moves;
-    if (moves & GN_MOVES_METAL) m->metalness = clamp(r->metalness, 0, 1);
-    if (moves & GN_MOVES_ROUGH) m->roughness = clamp(r->roughness, 0, 1);
-    if (moves & GN_MOVES_EMISSIVE) gn_emissive_make(r->emissive, r->emissive_strength, m->emissive);
-    if (moves & GN_MOVES_CUTOFF) m->alpha_cutoff = clamp(r->alpha_cutoff, 0, 2);
-    if (moves & GN_MOVES_NORMAL) m->normal_scale = clamp(r->normal_scale, -1e4f, 1e4f);
-    if (moves & GN_MOVES_OCCLUSION) m->occlusion_strength = clamp(r->occlusion_strength, 0, 1);
-    if (moves & GN_MOVES_F0)
-        gn_f0_make(gn_f0_of_ior(clamp(r->ior, 0, 1e4f)), r->specular, r->specular_color, m->f0);
-    if (moves & GN_MOVES_COAT) {
-        m->coat = clamp(r->coat, 0, 1);
-        m->coat_roughness = clamp(r->coat_roughness, 0, 1);
+void gn_material_make(const struct gn_material_record *record, uint32_t moves,
+                      struct gn_material *m) {
+    const struct gn_material_record r = clamped(record);
+    if (moves & GN_MOVES_METAL) m->metalness = r.metalness;
+    if (moves & GN_MOVES_ROUGH) m->roughness = r.roughness;
+    if (moves & GN_MOVES_CUTOFF) m->alpha_cutoff = r.alpha_cutoff;
+    if (moves & GN_MOVES_NORMAL) m->normal_scale = r.normal_scale;
+    if (moves & GN_MOVES_OCCLUSION) m->occlusion_strength = r.occlusion_strength;
+    for (int i = 0; i < GN_FACTORS_SIZE; i++)
+        if (moves & GN_MOVES_FIRST_LAYER << i / 4) m->factors[i] = r.factors[i];
+    for (int k = 0; k < 3; k++) {
+        if (moves & GN_MOVES_EMISSIVE)
+            m->emissive[k] = fminf(r.emissive[k] * r.emissive_strength, 1e9f);
+        if (moves & GN_MOVES_F0)
+            m->f0[k] = fminf(f0_of_ior(r.ior) * r.specular_color[k], 1) * r.specular;
+        if (moves & (GN_MOVES_BASE | GN_MOVES_TRANSMISSION))
+            m->base_color[k] =
+                r.base_color[k] * glm_lerp(1, r.tint[k], m->factors[GN_FACTOR_TRANSMISSION]);
     }
-    if (moves & GN_MOVES_TRANSMISSION) m->transmission = clamp(r->transmission, 0, 1);
-    if (moves & (GN_MOVES_BASE | GN_MOVES_TRANSMISSION)) make_base(r, m);
+    if (moves & GN_MOVES_BASE) m->base_color[3] = fminf(r.base_color[3], 1);
     for (int slot = 0; moves & GN_MOVES_UV && slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        make_moved_uv(&r->uv[slot], m->textures[slot].uv_from_uv);
+        gn_uv_make(&r.uv[slot], m->textures[slot].uv_from_uv);
 }

@@ -64,9 +64,12 @@ enum gn_material_moves {
     GN_MOVES_NORMAL = 32,
     GN_MOVES_OCCLUSION = 64,
     GN_MOVES_F0 = 128,
-    GN_MOVES_COAT = 256,
-    GN_MOVES_TRANSMISSION = 512,
-    GN_MOVES_UV = 1024, /* transforms of its textures */
+    GN_MOVES_UV = 256, /* transforms of its textures */
+    GN_MOVES_FIRST_LAYER = 512,
+#define GN_X(NAME, ...) GN_MOVES_##NAME = GN_MOVES_FIRST_LAYER << GN_LAYER_##NAME,
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
+        GN_MOVES_LAYERS = GN_MOVES_FIRST_LAYER * ((1 << GN_LAYER_COUNT) - 1),
     GN_MOVES_CUT = GN_MOVES_BASE | GN_MOVES_CUTOFF | GN_MOVES_TRANSMISSION | GN_MOVES_UV,
 };
 enum gn_alpha { GN_ALPHA_OPAQUE, GN_ALPHA_MASK, GN_ALPHA_BLEND };
@@ -77,9 +80,8 @@ struct gn_material {
     float roughness, metalness, occlusion_strength, alpha_cutoff;
     float normal_scale; /* of x and y of the normal map */
     float lightmap_intensity;
-    float coat, coat_roughness; /* KHR_materials_clearcoat: how much of it, 0 to 1; 0 if unlit */
-    float transmission;         /* KHR_materials_transmission: 0 to 1; 0 if unlit */
-    vec3 f0;                    /* reflectance at normal incidence of what is no metal; GN_F0 */
+    float factors[GN_FACTORS_SIZE]; /* of its layers: [GN_FACTOR_COAT]; 0 if unlit */
+    vec3 f0;                        /* reflectance at normal incidence of what is no metal; GN_F0 */
     enum gn_alpha alpha;
     bool double_sided, unlit;
     bool shadow_catcher; /* unseen: black, its alpha the share of light that shadows take from it */
@@ -265,13 +267,16 @@ struct gn_scene_pictures {
     struct gn_texture *textures; /* images and how they are sampled */
     uint32_t image_count, texture_count;
 };
+/* Kinds of things that clips move (scene/property.h). */
+enum gn_thing { GN_THING_LIGHT, GN_THING_CAMERA, GN_THING_MATERIAL, GN_THING_NODE, GN_THING_COUNT };
 struct gn_scene_animation {
     struct gn_clip *clips;
     struct gn_channel *channels; /* of all clips, clip by clip */
     uint32_t clip_count, channel_count;
     float *records; /* of what clips move beside nodes, as the file has it (scene/property.h) */
     uint32_t record_floats;
-    bool has_hidden; /* nodes, or some may be hidden */
+    bool names[GN_THING_COUNT]; /* whether some of that kind have records */
+    bool has_hidden;            /* nodes, or some may be hidden */
 };
 struct gn_scene_deformation { /* skins and targets of meshes */
     struct gn_skin *skins;

@@ -10,24 +10,6 @@
 
 /* ---- once ---- */
 
-static bool names_light(const struct gn_scene *scene) {
-    bool any = scene->animation.has_hidden;
-    for (uint32_t i = 0; i < scene->light_count; i++) any |= scene->lights[i].record > 0;
-    return any;
-}
-
-static bool names_camera(const struct gn_scene *scene) {
-    bool any = false;
-    for (uint32_t i = 0; i < scene->camera_count; i++) any |= scene->cameras[i].record > 0;
-    return any;
-}
-
-static bool names_material(const struct gn_scene *scene) {
-    bool any = false;
-    for (uint32_t i = 0; i < scene->material_count; i++) any |= scene->materials[i].record > 0;
-    return any;
-}
-
 void gn_values_init(struct gn_values *v, struct gn_pose *pose) {
     const struct gn_scene *scene = pose->scene;
     const uint32_t floats = scene->animation.record_floats;
@@ -45,11 +27,11 @@ void gn_values_init(struct gn_values *v, struct gn_pose *pose) {
     v->shown = gn_xalloc(floats, sizeof *v->shown);
     v->kept = gn_xalloc(floats, sizeof *v->kept);
     memcpy(v->shown, scene->animation.records, floats * sizeof *v->shown);
-    if (!v->lights && names_light(scene))
+    if (!v->lights && scene->animation.names[GN_THING_LIGHT])
         pose->lights = v->lights = gn_xalloc(scene->light_count, sizeof *v->lights);
-    if (names_camera(scene))
+    if (scene->animation.names[GN_THING_CAMERA])
         pose->cameras = v->cameras = gn_xalloc(scene->camera_count, sizeof *v->cameras);
-    if (!names_material(scene)) return;
+    if (!scene->animation.names[GN_THING_MATERIAL]) return;
     pose->materials = v->materials = gn_xalloc(scene->material_count, sizeof *v->materials);
     memcpy(v->materials, scene->materials, scene->material_count * sizeof *v->materials);
 }
@@ -112,7 +94,7 @@ static void mix(struct gn_values *v, const struct gn_pose *pose) {
     const uint32_t floats = pose->scene->animation.record_floats;
     for (uint32_t i = 0; i < floats; i++)
         v->shown[i] =
-            pose->fade < 1 ? v->kept[i] + (v->now[i] - v->kept[i]) * pose->fade : v->now[i];
+            pose->at.fade < 1 ? v->kept[i] + (v->now[i] - v->kept[i]) * pose->at.fade : v->now[i];
 }
 
 /* A node is shown or not: between clips, as the newer one has it. */
@@ -146,8 +128,8 @@ void gn_values_apply(struct gn_values *v, struct gn_pose *pose) {
         if (record) gn_camera_make((const void *)(v->shown + record - 1), &v->cameras[i]);
     }
     for (uint32_t i = 0; v->materials && i < scene->material_count; i++) {
-        const uint32_t record = v->materials[i].record;
-        if (record) gn_material_make((const void *)(v->shown + record - 1), &v->materials[i]);
+        struct gn_material *m = &v->materials[i];
+        if (m->record) gn_material_make((const void *)(v->shown + m->record - 1), m->moves, m);
     }
 }
 
@@ -156,7 +138,7 @@ uint64_t gn_values_hash(const struct gn_pose *pose, const struct gn_item *item, 
     if (!has_cut(m)) return hash;
     hash = gn_hash(hash, m->base_color, sizeof m->base_color);
     hash = gn_hash(hash, &m->alpha_cutoff, sizeof m->alpha_cutoff);
-    hash = gn_hash(hash, &m->transmission, sizeof m->transmission);
+    hash = gn_hash(hash, &m->factors[GN_FACTOR_TRANSMISSION], sizeof(float));
     hash = gn_hash(hash, &m->metalness, sizeof m->metalness);
     static const int slots[] = {GN_TEXTURE_BASE, GN_TEXTURE_TRANSMISSION};
     for (int i = 0; i < 2; i++)

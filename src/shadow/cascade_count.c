@@ -17,15 +17,16 @@ float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struc
     struct gn_shadow_view view;
     struct gn_distances seen;
     if (!gn_shadow_fit(pose, light, eye, opts, memory, &view)) return 0.0f;
-    const struct gn_fitter f = {
-        .pose = pose,
-        .eye = eye,
-        .memory = memory,
-        .view = &view,
-        .tile = view.raster.tiles,
-        .scene_size_m = gn_scene_size_m(pose),
-        .light_radius = opts->radius_given ? opts->radius : pose->scene->lights[light].radius,
-        .range_m = INFINITY};
+    const struct gn_fitter f = {.pose = pose,
+                                .eye = eye,
+                                .memory = memory,
+                                .view = &view,
+                                .tile = view.raster.tiles,
+                                .scene_size_m = gn_scene_size_m(pose),
+                                .light_radius = GN_LIGHT_HAS(&opts->light, radius)
+                                                    ? opts->light.radius
+                                                    : pose->scene->lights[light].radius,
+                                .range_m = INFINITY};
     if (!gn_distances_find(&f, &seen)) return 0.0f;
     if (view.map.cascade_count == 0) return view.lookup.texel / gn_distances_nearest(&seen);
     float tangent = 0.0f;

@@ -29,18 +29,20 @@ static void set_filter(const struct gn_shadow_opts *opts, struct gn_shadow_view 
     const float tile_px = (float)opts->map_px;
     lookup->bias_texels = row->bias_texels;
     lookup->margin_px = row->radius_texels;
+    const float set_px = fmaxf(opts->light.filter_radius_px, 0.0f);
     if (row->filter == GN_FILTER_BLUR) {
-        lookup->filter_radius_px = opts->filter_radius_px;
-    } else if (opts->filter_radius_px > 0.0f && row->filter_radius_px > 0.0f) {
+        lookup->filter_radius_px = set_px;
+    } else if (set_px > 0.0f && row->filter_radius_px > 0.0f) {
         const float most = fmaxf(fminf(row->filter_most, tile_px / 16.0f), row->filter_radius_px);
-        lookup->filter_radius_px = fminf(opts->filter_radius_px, most);
+        lookup->filter_radius_px = fminf(set_px, most);
         const float further = ceilf(lookup->filter_radius_px) - ceilf(row->filter_radius_px);
         if (further > 0.0f) lookup->margin_px += (uint32_t)further;
         if (row->one_code) lookup->bias_texels *= lookup->filter_radius_px / row->filter_radius_px;
     }
-    if (!opts->bias_given || row->on_plane) return;
+    const float bias = GN_LIGHT_HAS(&opts->light, bias_texels) ? opts->light.bias_texels : -1.0f;
+    if (bias < 0.0f || row->on_plane) return;
     const float own = lookup->bias_texels, most = fmaxf(tile_px / 8.0f, own);
-    lookup->bias_texels = fminf(opts->bias_texels, most);
+    lookup->bias_texels = fminf(bias, most);
     lookup->margin_px += (uint32_t)ceilf(fmaxf(lookup->bias_texels - own, 0.0f));
 }
 
@@ -81,6 +83,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
 
     /* what does not depend on casters and receivers */
     const enum gn_light_type type = l->type;
+    const int faces = opts->light.faces;
     uint32_t size_px[2];
     vec3 direction;
     gn_shadow_map_size(type, opts->technique, opts->map_px, size_px);
@@ -91,8 +94,8 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                 .moments = opts->moments,
                                 .plane = opts->plane ? opts->plane : 1,
                                 .all_receive = opts->all_receive,
-                                .faces_given = opts->faces_given && !row->on_plane,
-                                .faces = opts->faces,
+                                .faces_given = faces > 0 && !row->on_plane,
+                                .faces = (enum gn_cast_faces)(faces > 0 ? faces - 1 : 0),
                                 .perspective = gn_light_types[type].has_position,
                                 .map = {.tile_px = opts->map_px,
                                         .width_px = size_px[0],
@@ -111,7 +114,8 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                           .view = view,
                           .tile = view->raster.tiles,
                           .scene_size_m = gn_scene_size_m(pose),
-                          .light_radius = opts->radius_given ? opts->radius : l->radius,
+                          .light_radius =
+                              GN_LIGHT_HAS(&opts->light, radius) ? opts->light.radius : l->radius,
                           .range_m = l->range_m > 0.0f ? l->range_m : INFINITY};
     const bool found = row->on_plane                 ? gn_planar_fit(&f, opts->points)
                        : view->map.cascade_count > 0 ? gn_cascades_fit(&f)

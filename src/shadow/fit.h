@@ -18,7 +18,7 @@
 #define GN_SHADOW_FIT_H
 
 #include "scene/pose.h"
-#include "shadow/technique.h"
+#include "shadow/light_opts.h"
 
 #define GN_SHADOW_STEP  1.0905077f /* from one size of texel to the next: 8 an octave */
 #define GN_SPOT_MAX_RAD 1.3962634f /* 80 degrees: a spot's map does not reach beyond */
@@ -31,14 +31,8 @@ struct gn_shadow_opts {
     bool all_receive;            /* ignore gnomon_receive: for pictures of visibility */
     uint32_t plane;              /* on_plane: which of the scene, from 1; 0: the first */
     uint32_t points;             /* with MEAN: of the lamp (lamp.h) */
-    bool faces_given;
-    enum gn_cast_faces faces; /* given: of all casters, not on a plane, in place of their own */
-    bool radius_given;
-    float radius; /* given: the light's, in place of the scene's */
-    bool bias_given;
-    float bias_texels;      /* given: in place of the technique's */
-    float filter_radius_px; /* over 0: radius of the filter, in place of the technique's; within
-                            what it can have */
+    struct gn_light_opts light;  /* what holds for the light; what is not given is the scene's, or
+                                    the technique's. The fields above are already chosen by it */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
                           one need an eye with a perspective */
 };
@@ -174,9 +168,9 @@ struct gn_shadow_view {
     enum gn_moments moments; /* what shaders read in the map's place; NONE: the map */
     uint32_t plane;          /* as in gn_shadow_opts */
     bool all_receive;        /* as in gn_shadow_opts */
-    bool faces_given;        /* likewise */
-    enum gn_cast_faces faces;
-    bool perspective; /* spot, point */
+    bool faces_given;
+    enum gn_cast_faces faces; /* given: of all casters, in place of their own */
+    bool perspective;         /* spot, point */
     bool empty;       /* nothing in view can be in this light's shadow: the map holds the far end */
     vec3 light_ws;    /* position (spot, point) */
     vec3 to_light_ws; /* unit (directional) */

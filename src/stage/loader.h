@@ -1,5 +1,5 @@
 /* Scenes loaded in a thread, one at a time, while frames go on. A load may be cancelled; the next
- * one starts when its thread has ended, within a moment. */
+ * one starts when it has ended, within a moment. */
 #ifndef GN_STAGE_LOADER_H
 #define GN_STAGE_LOADER_H
 
@@ -17,14 +17,14 @@ struct gn_loaded {
 
 struct gn_loader *gn_loader_open(struct gn_err *err);
 int gn_loader_fd(const struct gn_loader *loader);       /* readable when a scene can be taken */
-bool gn_loader_is_busy(const struct gn_loader *loader); /* a thread runs or is to be taken */
+bool gn_loader_is_busy(const struct gn_loader *loader); /* a load runs or is to be taken */
 /* The number of the load that runs and is not cancelled, else -1. */
 int gn_loader_number(const struct gn_loader *loader);
 /* How much of that load is done, 0 to 1; below 0: none runs. */
 double gn_loader_progress(const struct gn_loader *loader);
-/* Starts the thread; not while busy. The path is copied; NULL: the built-in scene. */
-bool gn_loader_start(struct gn_loader *loader, int number, const char *path,
-                     const struct gn_scene_limits *limits, struct gn_err *err);
+/* Not while busy. The path is copied; NULL: the built-in scene. */
+void gn_loader_start(struct gn_loader *loader, int number, const char *path,
+                     const struct gn_scene_limits *limits);
 /* Drops what is loaded, if anything is: gn_loader_take() will not return it. Does not wait. */
 void gn_loader_cancel(struct gn_loader *loader);
 /* The loaded scene, owned by the caller; NULL: not done yet, or it was cancelled. */

@@ -11,47 +11,23 @@
 #include "truth/cast.h"
 
 static bool check_memory(const struct gn_stage *stage, const struct gn_plan *plan,
-                         const struct gn_scene_limits *limits, struct gn_err *err) {
+                         struct gn_err *err) {
+    const struct gn_scene_limits limits =
+        gn_scene_limits_or_default(&stage->settings->render.limits.all);
     const uint64_t triangles_mb = gn_raycast_bytes(stage->scene) >> 20,
                    pixels_mb = gn_plan_map_bytes(plan) >> 20;
-    if (triangles_mb > limits->memory_mb)
+    if (triangles_mb > limits.memory_mb)
         return gn_fail(err,
                        "truth: the triangles of this scene take %llu MB, over the limit "
                        "memory_mb=%llu: raise it by --limit",
-                       (unsigned long long)triangles_mb, (unsigned long long)limits->memory_mb);
-    if (pixels_mb > limits->maps_mb)
+                       (unsigned long long)triangles_mb, (unsigned long long)limits.memory_mb);
+    if (pixels_mb > limits.maps_mb)
         return gn_fail(err,
                        "truth: the visibility of %u lights takes %llu MB, over the limit "
                        "maps_mb=%llu: raise it by --limit, or use a smaller --size",
                        plan->shadow_count, (unsigned long long)pixels_mb,
-                       (unsigned long long)limits->maps_mb);
+                       (unsigned long long)limits.maps_mb);
     return true;
-}
-
-static void init_eye(const struct gn_stage *stage, const struct gn_plan *plan,
-                     struct gn_ray_eye *eye) {
-    const struct gn_frame_view_opts *view = &stage->frame_opts.view;
-    const struct gn_box *box = &stage->scene->box;
-    double centre[3];
-    for (int k = 0; k < 3; k++) centre[k] = .5 * ((double)box->min[k] + (double)box->max[k]);
-    const int w = (int)plan->width_px, h = (int)plan->height_px;
-    struct gn_framing_opts opts = view->framing;
-    struct gn_framing framing;
-    opts.aspect = (float)w / (float)h;
-    if (view->light_plus_1 > 0) {
-        gn_frame_light_camera(&stage->pose, view->light_plus_1 - 1, opts.aspect, &framing.camera,
-                              framing.view_from_world, framing.eye_ws);
-    } else {
-        gn_orbit_view(&view->orbit, &stage->pose, (uint32_t)view->camera, &opts, &framing);
-    }
-    gn_ray_eye_look(eye, &framing, w, h);
-    if (eye->orthographic && !gn_orbit_is_zero(&view->orbit)) {
-        float half[2];
-        gn_orbit_ortho_half(&view->orbit, &framing.camera, opts.aspect, half);
-        eye->half_width = (double)half[0];
-        eye->half_height = (double)half[1];
-    }
-    if (view->turntable_rad != 0.0f) gn_ray_eye_turn(eye, centre, (double)view->turntable_rad);
 }
 
 /* The rasteriser may draw a pixel of an outline whose middle a ray just misses: it takes the value
@@ -94,25 +70,27 @@ struct gn_rays {
 };
 
 static bool init_rays(struct gn_rays *rays, const struct gn_stage *stage,
-                      const struct gn_plan *plan, const struct gn_scene_limits *limits,
-                      struct gn_err *err) {
+                      const struct gn_view *view, const struct gn_plan *plan, struct gn_err *err) {
     const size_t pixels = (size_t)plan->width_px * plan->height_px;
-    rays->scene = stage->scene;
-    rays->pose = &stage->pose;
+    rays->scene = view->pose->scene;
+    rays->pose = view->pose;
     rays->samples = stage->settings->run.samples;
     for (uint32_t i = 0; i < plan->shadow_count; i++)
         if (plan->shadows[i].encoding == GN_ENCODING_SCREEN) rays->slots[rays->count++] = i;
     if (rays->count == 0) return true;
-    if (!check_memory(stage, plan, limits, err)) return false;
+    if (!check_memory(stage, plan, err)) return false;
     for (uint32_t i = 0; i < rays->count; i++) {
         const uint32_t light = plan->shadows[rays->slots[i]].light;
-        const struct gn_frame_light_opts one = gn_frame_light_opts(&stage->frame_opts, light);
-        gn_ray_lamp_init(&rays->lamps[i], &stage->pose, light);
-        if (one.given & GN_LIGHT_RADIUS) rays->lamps[i].radius = (double)one.radius;
+        gn_ray_lamp_init(&rays->lamps[i], view->pose, light);
+        rays->lamps[i].radius =
+            (double)gn_frame_light_opts(view->builder, view->pose, &view->opts, light).radius;
         rays->seen[i] = gn_picture_alloc(pixels, sizeof *rays->seen[i], err);
         if (!rays->seen[i]) return false;
     }
-    init_eye(stage, plan, &rays->eye);
+    const int width_px = (int)plan->width_px, height_px = (int)plan->height_px;
+    struct gn_framing framing;
+    gn_frame_camera(view->pose, &view->opts.view, (float)width_px / (float)height_px, &framing);
+    gn_ray_eye_look(&rays->eye, &framing, width_px, height_px);
     return true;
 }
 
@@ -161,13 +139,13 @@ static bool cast_now(struct gn_stage *stage, const struct gn_plan *plan, struct 
     return true;
 }
 
-bool gn_stage_cast(struct gn_stage *stage, const struct gn_plan *plan,
-                   const struct gn_scene_limits *limits, struct gn_err *err) {
+bool gn_stage_cast(struct gn_stage *stage, const struct gn_view *view, const struct gn_plan *plan,
+                   struct gn_err *err) {
     struct gn_rays rays = {.count = 0};
-    if (stage->truth.given) return give(stage, plan, stage->truth.given, err);
+    if (view->rays) return give(stage, plan, view->rays, err);
     free(stage->truth.visibility);
     stage->truth.visibility = NULL;
-    bool ok = init_rays(&rays, stage, plan, limits, err);
+    bool ok = init_rays(&rays, stage, view, plan, err);
     if (ok && rays.count > 0) ok = cast_now(stage, plan, &rays, err);
     finish_rays(&rays);
     return ok;
@@ -189,13 +167,12 @@ static void *cast_in_thread(void *user) {
 }
 
 static void copy_pose(struct gn_rays *rays, const struct gn_pose *pose) {
-    gn_pose_init(&rays->own_pose, pose->scene, pose->clips);
-    if (pose->over >= 0) gn_pose_choose_over(&rays->own_pose, pose->clips, pose->over);
-    rays->own_pose.over_ns = pose->over_ns;
-    rays->own_pose.run = pose->run;
-    rays->own_pose.begun_ns = pose->begun_ns;
-    gn_pose_choose_variant(&rays->own_pose, pose->variant);
-    gn_pose_step(&rays->own_pose, pose->time_ns);
+    gn_pose_init(&rays->own_pose, pose->scene, pose->at.clips);
+    if (pose->at.over >= 0) gn_pose_choose_over(&rays->own_pose, pose->at.clips, pose->at.over);
+    gn_pose_choose_variant(&rays->own_pose, pose->at.variant);
+    rays->own_pose.at = pose->at;
+    rays->own_pose.at.fade = 1; /* it has not kept what that fades from */
+    gn_pose_step(&rays->own_pose, pose->at.time_ns);
     if (pose->aimed) gn_pose_aim(&rays->own_pose, pose->aim_ws);
     rays->pose = &rays->own_pose;
 }
@@ -207,11 +184,11 @@ static bool start(struct gn_rays *rays, struct gn_err *err) {
     return rays->started || gn_fail(err, "truth: no thread: %s", strerror(error));
 }
 
-struct gn_rays *gn_rays_begin(struct gn_stage *stage, const struct gn_plan *plan,
-                              const struct gn_scene_limits *limits, struct gn_err *err) {
+struct gn_rays *gn_rays_begin(const struct gn_stage *stage, const struct gn_view *view,
+                              const struct gn_plan *plan, struct gn_err *err) {
     struct gn_rays *rays = gn_xalloc(1, sizeof *rays);
-    bool ok = init_rays(rays, stage, plan, limits, err);
-    if (ok) copy_pose(rays, &stage->pose);
+    bool ok = init_rays(rays, stage, view, plan, err);
+    if (ok) copy_pose(rays, view->pose);
     ok = ok && start(rays, err);
     if (ok) return rays;
     gn_rays_destroy(rays);

@@ -4,16 +4,17 @@
 
 #include "stage/stage.h"
 
-/* Casts the rays of each light of the plan that is drawn with truth, at the stage's pose, and gives
- * them to GL; none: does nothing. Blocks, with all processors. limits: with defaults filled in. */
-bool gn_stage_cast(struct gn_stage *stage, const struct gn_plan *plan,
-                   const struct gn_scene_limits *limits, struct gn_err *err);
+/* Casts the rays of each light of the view's plan that is drawn with truth, at its pose, and gives
+ * them to GL, or gives it the rays that the view has; none: does nothing. Blocks, with all
+ * processors. */
+bool gn_stage_cast(struct gn_stage *stage, const struct gn_view *view, const struct gn_plan *plan,
+                   struct gn_err *err);
 
-/* The same in a thread of low priority, of the stage's pose and view at this moment, of which it
- * has copies; the scene must outlive it. NULL: err says why; a plan without such lights is a
- * failure. Once done, stage.truth.given takes it for plans of the same lights and size. */
-struct gn_rays *gn_rays_begin(struct gn_stage *stage, const struct gn_plan *plan,
-                              const struct gn_scene_limits *limits, struct gn_err *err);
+/* The same in a thread of low priority, with copies of the pose and the camera; the scene must
+ * outlive it. NULL: err has the reason; a plan without such lights is a failure. Once they are
+ * done, gn_view.rays takes them for plans of the same lights and size. */
+struct gn_rays *gn_rays_begin(const struct gn_stage *stage, const struct gn_view *view,
+                              const struct gn_plan *plan, struct gn_err *err);
 double gn_rays_progress(const struct gn_rays *rays); /* 0 to 1 */
 bool gn_rays_are_done(const struct gn_rays *rays);
 /* Ends the thread first, which takes some milliseconds. */

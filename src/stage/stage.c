@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "core/embedded.h"
+#include "core/srgb.h"
 #include "core/stop.h"
 #include "stage/environment.h"
 #include "stage/import.h"
 #include "stage/lights.h"
-#include "stage/rays.h"
 #include "stage/wake.h"
 
 /* "lesson:solids" */
@@ -48,20 +48,15 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
                                err);
 }
 
-bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
-                     struct gn_err *err) {
-    const double floor_m = settings->scene.floor_m;
-    *limits = (struct gn_scene_limits){.floor = {.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
-                                                         : isinf(floor_m) ? GN_FLOOR_NONE
-                                                                          : GN_FLOOR_HEIGHT,
-                                                 .height_m = isfinite(floor_m) ? floor_m : 0.0}};
-    const double texture_px = settings->scene.texture_limit_px;
-    limits->texture_px = isfinite(texture_px) ? (uint32_t)texture_px : 0;
-    for (int i = 0; i < settings->render.limits.count; i++)
-        if (!gn_scene_limits_set(limits, settings->render.limits.items[i].name,
-                                 (uint64_t)settings->render.limits.items[i].value, err))
-            return false;
-    return true;
+struct gn_scene_limits gn_stage_limits(const struct gn_settings *settings) {
+    const double floor_m = settings->scene.floor_m, texture_px = settings->scene.texture_limit_px;
+    struct gn_scene_limits limits = gn_scene_limits_or_default(&settings->render.limits.all);
+    limits.floor = (struct gn_scene_floor){.kind = isnan(floor_m)   ? GN_FLOOR_AUTO
+                                                   : isinf(floor_m) ? GN_FLOOR_NONE
+                                                                    : GN_FLOOR_HEIGHT,
+                                           .height_m = isfinite(floor_m) ? floor_m : 0.0};
+    limits.texture_px = isfinite(texture_px) ? (uint32_t)texture_px : 0;
+    return limits;
 }
 
 void gn_stage_name_source(const struct gn_settings *settings, struct gn_err *err) {
@@ -72,8 +67,7 @@ void gn_stage_name_source(const struct gn_settings *settings, struct gn_err *err
 
 struct gn_scene *gn_stage_scene(const struct gn_settings *settings, struct gn_warnings *warnings,
                                 struct gn_err *err) {
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(settings, &limits, err)) return NULL;
+    const struct gn_scene_limits limits = gn_stage_limits(settings);
     struct gn_scene *scene = gn_stage_read(settings->scene.path, &limits, warnings, err);
     if (!scene) gn_stage_name_source(settings, err);
     return scene;
@@ -148,63 +142,39 @@ static enum gn_background background_of(int setting) {
                                             : GN_BACKGROUND_COLOR;
 }
 
-static float linear_of(unsigned code) {
-    const float c = (float)code / 255.0f;
-    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
-}
-
 static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o) {
     const bool continuous = o->run.command == GN_COMMAND_SHOW || o->run.command == GN_COMMAND_AUTO;
     *f = (struct gn_frame_opts){
-        .width_px = (uint32_t)o->render.size.width_px,
-        .height_px = (uint32_t)o->render.size.height_px,
+        .output.width_px = (uint32_t)o->render.size.width_px,
+        .output.height_px = (uint32_t)o->render.size.height_px,
         .view.framing.turns = o->scene.turntable_deg_s != 0.0,
         .debug.aov = o->render.aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
                                                    : (enum gn_aov)o->render.aov,
         .debug.light = o->render.light,
-        .output_linear = o->render.output == GN_PICTURE_LINEAR,
+        .output.linear = o->render.output == GN_PICTURE_LINEAR,
         .exposure_given = !isnan(o->render.exposure_ev),
         .exposure_ev = isnan(o->render.exposure_ev) ? 0.0f : (float)o->render.exposure_ev,
-        .shadow.encoding = GN_MAP_FORMAT_ENCODING(o->render.map_format),
-        .shadow.moments = GN_MAP_FORMAT_MOMENTS(o->render.map_format),
-        .shadow.map_px = gn_settings_given(o, render.map_px) ? (uint32_t)o->render.map_px : 0,
         .shadow.planar_in_stencil = o->render.planar == GN_PLANAR_STENCIL,
         .shadow.planar_points =
             o->render.planar == GN_PLANAR_SOFT ? (uint32_t)o->render.planar_points : 0,
         .shadow.gather_points =
             continuous || o->run.command == GN_COMMAND_BENCH ? GATHER_POINTS : 0,
         .shadow.clears_near = o->render.map_clears_near,
-        .shadow.faces = o->render.cast_faces,
-        .shadow.specular_given = !isnan(o->render.shadow_specular),
-        .shadow.specular = (float)o->render.shadow_specular,
-        .shadow.bias_given = !isnan(o->render.bias_texels),
-        .shadow.bias_texels = (float)o->render.bias_texels,
-        .shadow.filter_radius_px =
-            isnan(o->render.filter_radius_px) ? 0.0f : (float)o->render.filter_radius_px,
-        .shadow.slide_far_given = !isnan(o->render.slide_far_m),
-        .shadow.slide_far_m = (float)o->render.slide_far_m,
-        .shadow.slide_as_picture = o->render.slide_as_picture,
-        .shadow.cascade_count = (uint32_t)o->render.cascades,
-        .shadow.taps = (unsigned)o->render.taps,
         .shadow.taps_fixed = o->render.taps_fixed,
         .shadow.filter_texels = continuous ? (uint64_t)(o->render.filter_budget * 1e6) : 0,
-        .shadow.strength_given = gn_settings_given(o, render.shadow_strength),
-        .shadow.strength = (float)o->render.shadow_strength,
         .background = background_of(o->render.background),
         .tone = (enum gn_tone)o->render.tone,
-        .msaa = o->render.msaa == GN_MSAA_AUTO ? 0 : (uint32_t)o->render.msaa,
+        .output.msaa = o->render.msaa == GN_MSAA_AUTO ? 0 : (uint32_t)o->render.msaa,
         .debug.show_lights = o->render.show_lights,
         .debug.show_maps = o->render.show_maps,
     };
     for (int k = 0; k < 3 && f->background == GN_BACKGROUND_COLOR; k++)
-        f->background_color[k] = linear_of((unsigned)o->render.background >> (16 - 8 * k) & 255);
-    f->shadow.technique_given = gn_settings_given(o, render.shadow);
-    if (f->shadow.technique_given && o->render.shadow.count == 1) /* bench sets each of a list */
-        f->shadow.technique = (enum gn_technique)o->render.shadow.items[0];
+        f->background_color[k] =
+            gn_srgb_decode((float)((unsigned)o->render.background >> (16 - 8 * k) & 255) / 255.0f);
 }
 
 static bool casts_rays(const struct gn_frame_shadow_opts *shadow) {
-    bool any = shadow->technique == GN_TECHNIQUE_TRUTH;
+    bool any = shadow->any.technique == GN_TECHNIQUE_TRUTH;
     for (uint32_t i = 0; i < shadow->light_count; i++)
         any |= shadow->lights[i].technique == GN_TECHNIQUE_TRUTH;
     return any;
@@ -244,8 +214,6 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
         return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
                              gn_settings_label(o, render.light), o->render.light,
                              scene->light_count, scene->light_count == 1 ? "" : "s");
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(o, &limits, err)) return false;
     set_frame_opts(&look->frame_opts, o);
     set_framing(&look->frame_opts.view.framing, &o->camera, scene->place.origin);
     if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
@@ -253,12 +221,11 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
         return false;
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     struct gn_frame_environment_opts *e = &look->frame_opts.environment;
-    e->shows_key = e->of && e->lights_key &&
-                   gn_stage_keeps_key(&look->frame_opts.shadow, o, scene, &e->of->key, e->strength);
-    if (look->frame_opts.msaa > 1 && casts_rays(&look->frame_opts.shadow))
+    e->shows_key = e->of && e->lights_key && gn_stage_keeps_key(&look->frame_opts.shadow, o, scene);
+    if (look->frame_opts.output.msaa > 1 && casts_rays(&look->frame_opts.shadow))
         return gn_fail_usage(err, "%s %u: truth has one visibility for each pixel; use 0",
-                             gn_settings_label(o, render.msaa), look->frame_opts.msaa);
-    limits = gn_scene_limits_or_default(&limits);
+                             gn_settings_label(o, render.msaa), look->frame_opts.output.msaa);
+    const struct gn_scene_limits limits = gn_stage_limits(o);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;
     if (choose_camera(o, scene, &look->frame_opts.view, err)) return true;
@@ -270,12 +237,12 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     *stage = (struct gn_stage){.settings = settings, .scene = scene};
     struct gn_stage_look look;
     if (!scene || !gn_stage_look_build(&look, settings, scene, warnings, err)) return false;
-    stage->frame_opts = look.frame_opts;
+    stage->shown = (struct gn_view){.opts = look.frame_opts, .pose = &stage->pose};
     gn_pose_init(&stage->pose, scene, look.clips);
     gn_pose_choose_variant(&stage->pose, look.variant);
-    stage->pose.run = look.run;
+    stage->pose.at.run = look.run;
     gn_pose_step(&stage->pose, settings->scene.time_ns);
-    gn_stage_aim(&stage->pose, &stage->frame_opts, settings);
+    gn_stage_aim(&stage->pose, &stage->shown.opts, settings);
     return true;
 }
 
@@ -297,15 +264,13 @@ bool gn_stage_start_gl(struct gn_stage *stage, struct gn_warnings *warnings, str
         .debug = o->run.verbose,
     };
     stage->gl = gn_gl_create(&opts, warnings, err);
-    if (!stage->gl || !gn_gl_load(stage->gl, stage->scene, err)) return false;
-    stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
-    return true;
+    return stage->gl && gn_gl_load(stage->gl, stage->scene, err);
 }
 
 void gn_stage_stop_gl(struct gn_stage *stage) {
-    gn_frame_destroy(stage->frame);
+    gn_frame_destroy(stage->shown.builder);
     gn_gl_destroy(stage->gl);
-    stage->frame = NULL;
+    stage->shown.builder = NULL;
     stage->gl = NULL;
 }
 
@@ -322,55 +287,18 @@ bool gn_stage_open(struct gn_stage *stage, struct gn_warnings *warnings, struct 
     return true;
 }
 
-const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
-                                    struct gn_err *err) {
-    const struct gn_plan *plan =
-        gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
-    while (!gn_gl_prove(stage->gl, plan)) {
-        gn_frame_destroy(stage->frame);
-        stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
-        plan = gn_frame_build(stage->frame, &stage->pose, &stage->frame_opts, warnings);
-    }
-    stage->is_behind = plan->is_behind;
-    if (gn_gl_prepare(stage->gl, plan, err)) return plan;
-    const char *source = gn_gl_failed_source(stage->gl);
-    if (source) fputs(source, stderr);
-    return NULL;
-}
-
 /* 256 MB of samples, with colour and depth of 4 bytes each: a picture of 3840 x 2160. */
 enum { MSAA_MOST_PIXELS = 8 << 20 };
 
 uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t height_px,
                        bool to_file) {
     const struct gn_settings *o = stage->settings;
-    const struct gn_frame_opts *f = &stage->frame_opts;
+    const struct gn_frame_opts *f = &stage->shown.opts;
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     if (o->render.msaa != GN_MSAA_AUTO) return (uint32_t)o->render.msaa;
-    const bool measured = f->output_linear || f->output_float || casts_rays(&f->shadow);
+    const bool measured = f->output.linear || f->output.floats || casts_rays(&f->shadow);
     if (measured || !(caps->has & 1u << GN_CAP_MSAA4) || !(caps->tiler || to_file)) return 0;
     return (uint64_t)width_px * height_px <= MSAA_MOST_PIXELS ? 4 : 0;
-}
-
-void gn_stage_pose(struct gn_stage *stage, int64_t time_ns) {
-    gn_pose_step(&stage->pose, time_ns);
-    double turned_deg =
-        fmod(stage->settings->scene.turntable_deg_s * ((double)(time_ns - stage->rested_ns) * 1e-9),
-             360.0);
-    stage->frame_opts.view.turntable_rad = glm_rad((float)turned_deg);
-    gn_stage_aim(&stage->pose, &stage->frame_opts, stage->settings);
-}
-
-const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
-                                    struct gn_warnings *warnings, struct gn_err *err) {
-    struct gn_scene_limits limits;
-    if (!gn_stage_limits(stage->settings, &limits, err)) return NULL;
-    limits = gn_scene_limits_or_default(&limits);
-    gn_stage_pose(stage, time_ns);
-    const struct gn_plan *plan = gn_stage_plan(stage, warnings, err);
-    const bool ok =
-        plan && gn_stage_cast(stage, plan, &limits, err) && gn_gl_run(stage->gl, plan, NULL, err);
-    return ok ? plan : NULL;
 }
 
 void gn_stage_close(struct gn_stage *stage) {

@@ -8,6 +8,7 @@
 #include "frame/frame.h"
 #include "gl/gl.h"
 #include "options/settings.h"
+#include "stage/view.h"
 
 /* How the settings draw a scene. */
 struct gn_stage_look {
@@ -16,29 +17,23 @@ struct gn_stage_look {
     struct gn_pose_run run;
     int variant; /* as gn_pose_choose_variant() wants it */
 };
-struct gn_rays; /* stage/rays.h */
 struct gn_stage {
     const struct gn_settings *settings; /* must outlive the stage */
     struct gn_scene *scene;
     struct gn_pose pose;
     struct gn_display display;
     struct gn_gl *gl;
-    struct gn_frame *frame;
-    struct gn_frame_opts frame_opts;
+    struct gn_view shown;                           /* of that scene and pose */
     struct gn_stage_truth {                         /* of technique truth */
         void (*progress)(void *user, double share); /* the caller's, as in gn_cast_opts, or NULL */
         void *user;
-        struct gn_rays *given; /* done ones of this moment, to be drawn in place of a cast; NULL */
         float *visibility; /* of the last picture's first light that is drawn with it: a value for
                               each pixel, row 0 on top; or NULL */
     } truth;
-    int64_t rested_ns; /* how much of the scene's time the turntable has stood */
-    bool is_behind;    /* as in gn_plan, of the last plan: it wants another frame */
 };
 
-/* The limits of --limit, for the loader. */
-bool gn_stage_limits(const struct gn_settings *settings, struct gn_scene_limits *limits,
-                     struct gn_err *err);
+/* The limits of --limit, for the loader, with the defaults of the others. */
+struct gn_scene_limits gn_stage_limits(const struct gn_settings *settings);
 /* A scene by its path; NULL: the built-in one. Uses no shared state: it may run in a thread. */
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
@@ -70,17 +65,6 @@ void gn_stage_stop_gl(struct gn_stage *stage);
  */
 uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t height_px,
                        bool to_file);
-/* The scene and the turntable at a time. */
-void gn_stage_pose(struct gn_stage *stage, int64_t time_ns);
-/* Builds the plan of the current pose and frame_opts and makes its GL objects. A capability that
- * the GPU claims and a test draw disproves is left out, as by --without, with a warning. NULL on
- * failure; with -v the source of a shader that does not compile is printed. */
-const struct gn_plan *gn_stage_plan(struct gn_stage *stage, struct gn_warnings *warnings,
-                                    struct gn_err *err);
-/* Poses at a time, builds the plan, makes its objects and draws it; with technique truth casts its
- * rays, which may take minutes. NULL on failure. */
-const struct gn_plan *gn_stage_draw(struct gn_stage *stage, int64_t time_ns,
-                                    struct gn_warnings *warnings, struct gn_err *err);
 void gn_stage_close(
     struct gn_stage *stage); /* a zeroed one may be closed, and one that failed half-way */
 

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "core/arena.h"
-#include "core/disk.h"
 #include "core/hash.h"
 
 enum { PIECE = 1 << 18, REMOVE_DEPTH = 64 };
@@ -71,18 +70,6 @@ static int add_part(struct gn_take_walk *w, const char *name, struct gn_err *err
 
 /* ---- files ---------------------------------------------------------------------------------- */
 
-static ssize_t read_piece(const struct gn_take_files *files, int fd, char *out) {
-    size_t used = 0;
-    while (used < PIECE) {
-        const ssize_t got = files->read(files->user, fd, out + used, PIECE - used);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return -1;
-        if (got == 0) break;
-        used += (size_t)got;
-    }
-    return (ssize_t)used;
-}
-
 static bool fail_write(const struct gn_take_walk *w, struct gn_err *err) {
     if (errno == EEXIST)
         return gn_fail(err, "%s: another name differs from it only in capitals; rename one",
@@ -95,14 +82,14 @@ static bool move_bytes(struct gn_take_walk *w, int from, int to, struct gn_err *
     static char piece[PIECE];
     ssize_t got;
     uint64_t size = 0;
-    while ((got = read_piece(w->files, from, piece)) > 0) {
+    while ((got = gn_disk_read_all(w->files, from, piece, PIECE)) > 0) {
         w->bytes += (uint64_t)got;
         size += (uint64_t)got;
         if (w->bytes > w->limits.bytes)
             return gn_fail(err, "%s: with this file the folder has more than %llu MB", w->path,
                            (unsigned long long)(w->limits.bytes >> 20));
         w->hash = gn_hash(w->hash, piece, (size_t)got);
-        if (to >= 0 && !gn_disk_write_all(w->files->write, w->files->user, to, piece, (size_t)got))
+        if (to >= 0 && !gn_disk_write_all(w->files, to, piece, (size_t)got))
             return fail_write(w, err);
     }
     if (got < 0) return gn_fail(err, "%s: cannot read: %s", w->path, strerror(errno));
@@ -112,7 +99,7 @@ static bool move_bytes(struct gn_take_walk *w, int from, int to, struct gn_err *
 
 static bool walk_file(struct gn_take_walk *w, int from, int to, const char *name,
                       struct gn_err *err) {
-    const struct gn_take_files *files = w->files;
+    const struct gn_disk *files = w->files;
     w->count++;
     if (to < 0) return move_bytes(w, from, -1, err);
     const int copy =
@@ -130,7 +117,7 @@ static bool walk_folder(struct gn_take_walk *w, int from, int to, int depth, str
 
 static bool walk_subfolder(struct gn_take_walk *w, int from, int to, const char *name, int depth,
                            struct gn_err *err) {
-    const struct gn_take_files *files = w->files;
+    const struct gn_disk *files = w->files;
     if (depth == w->limits.depth)
         return gn_fail(err, "%s: more than %d folders in each other", w->path, w->limits.depth);
     if (to < 0) return walk_folder(w, from, -1, depth + 1, err);
@@ -145,7 +132,7 @@ static bool walk_subfolder(struct gn_take_walk *w, int from, int to, const char 
 /* Opens what is a file or a folder. A pipe or a device is not even opened. */
 static int open_entry(const struct gn_take_walk *w, int folder, const char *name, struct stat *info,
                       struct gn_err *err) {
-    const struct gn_take_files *files = w->files;
+    const struct gn_disk *files = w->files;
     int fd = -1;
     if (fstatat(folder, name, info, AT_SYMLINK_NOFOLLOW) != 0 ||
         ((S_ISREG(info->st_mode) || S_ISDIR(info->st_mode)) &&
@@ -195,13 +182,13 @@ static bool walk_entry(struct gn_take_walk *w, int from, int to, const char *nam
 }
 
 static bool walk_folder(struct gn_take_walk *w, int from, int to, int depth, struct gn_err *err) {
-    const struct gn_take_files *files = w->files;
-    struct gn_take_names names = {0};
+    const struct gn_disk *files = w->files;
+    struct gn_disk_names names = {0};
     bool ok = files->list(files->user, from, &names) == 0 ||
               gn_fail(err, "%s: cannot read: %s", w->path, strerror(errno));
     for (int i = 0; ok && i < names.count; i++)
         ok = walk_entry(w, from, to, names.items[i], depth, err);
-    gn_take_names_free(&names);
+    gn_disk_free_names(&names);
     if (ok && to >= 0 && files->fsync(files->user, to) != 0) ok = fail_write(w, err);
     return ok;
 }
@@ -214,20 +201,19 @@ bool gn_take_walk(struct gn_take_walk *walk, int from, int to, struct gn_err *er
 
 /* ---- removing ------------------------------------------------------------------------------- */
 
-static bool remove_entry(const struct gn_take_files *files, int folder, const char *name,
-                         int depth) {
+static bool remove_entry(const struct gn_disk *files, int folder, const char *name, int depth) {
     if (files->unlink(files->user, folder, name, 0) == 0 || errno == ENOENT) return true;
     const int flags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW;
     const int own = depth < REMOVE_DEPTH ? files->open(files->user, folder, name, flags, 0) : -1;
-    struct gn_take_names names = {0};
+    struct gn_disk_names names = {0};
     if (own < 0) return false;
     bool ok = files->list(files->user, own, &names) == 0;
     for (int i = 0; i < names.count; i++) ok &= remove_entry(files, own, names.items[i], depth + 1);
-    gn_take_names_free(&names);
+    gn_disk_free_names(&names);
     files->close(files->user, own);
     return ok && files->unlink(files->user, folder, name, AT_REMOVEDIR) == 0;
 }
 
-bool gn_take_remove(const struct gn_take_files *files, int folder, const char *name) {
+bool gn_take_remove(const struct gn_disk *files, int folder, const char *name) {
     return remove_entry(files, folder, name, 0);
 }

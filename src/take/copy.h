@@ -5,7 +5,7 @@
 #include "take/take.h"
 
 struct gn_take_walk {
-    const struct gn_take_files *files;
+    const struct gn_disk *files;
     struct gn_take_limits limits; /* none is 0 */
     uint64_t hash, bytes;         /* of names and contents; so far */
     int entries, count, scenes;   /* files and folders; files; scenes directly in the folder */
@@ -18,6 +18,6 @@ struct gn_take_walk {
 bool gn_take_walk(struct gn_take_walk *walk, int from, int to, struct gn_err *err);
 
 /* A folder of ours with all that is in it. Goes on after an error; false: not all is gone. */
-bool gn_take_remove(const struct gn_take_files *files, int folder, const char *name);
+bool gn_take_remove(const struct gn_disk *files, int folder, const char *name);
 
 #endif

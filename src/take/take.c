@@ -69,7 +69,7 @@ static bool read_links(struct gn_take *t, struct gn_err *err) {
 
 /* Removes what no link leads to. What cannot be removed stays for the next time. */
 static void remove_others(struct gn_take *t) {
-    struct gn_take_names names = {0};
+    struct gn_disk_names names = {0};
     if (t->files->list(t->files->user, t->versions, &names) == 0)
         for (int i = 0; i < names.count; i++) {
             const char *name = names.items[i];
@@ -78,7 +78,7 @@ static void remove_others(struct gn_take *t) {
             if (strcmp(name, t->shown) != 0 && strcmp(name, t->before) != 0)
                 gn_take_remove(t->files, t->versions, name);
         }
-    gn_take_names_free(&names);
+    gn_disk_free_names(&names);
 }
 
 static unsigned number_of(const char *version) { return (unsigned)strtoul(version, NULL, 10); }
@@ -114,7 +114,7 @@ static bool make_folder(const struct gn_take *t, int at, const char *name) {
     return t->files->mkdir(t->files->user, at, name, 0755) == 0 || errno == EEXIST;
 }
 
-bool gn_take_open(struct gn_take *t, const struct gn_take_files *files, const char *dir,
+bool gn_take_open(struct gn_take *t, const struct gn_disk *files, const char *dir,
                   const struct gn_take_limits *limits, struct gn_err *err) {
     *t = (struct gn_take){.files = files,
                           .limits = limits_or_default(limits),
@@ -152,7 +152,7 @@ void gn_take_close(struct gn_take *t) {
 /* The stick's folder, in any case; -1 and ENOENT: there is none. */
 static int find_gnomon(struct gn_take *t, int stick) {
     const int flags = O_RDONLY | O_DIRECTORY | O_NOFOLLOW;
-    struct gn_take_names names = {0};
+    struct gn_disk_names names = {0};
     snprintf(t->name, sizeof t->name, "gnomon");
     int fd = t->files->open(t->files->user, stick, t->name, flags, 0), reason = errno;
     if (fd >= 0 || reason != ENOENT) return fd;
@@ -164,7 +164,7 @@ static int find_gnomon(struct gn_take *t, int stick) {
             if (fd >= 0) break;
             reason = errno;
         }
-    gn_take_names_free(&names);
+    gn_disk_free_names(&names);
     errno = reason;
     return fd;
 }
@@ -241,7 +241,7 @@ static bool fail_switch(const struct gn_take *t, struct gn_err *err) {
 
 /* The link leads to the one version or to the other at any moment. */
 static bool turn_link(const struct gn_take *t, const char *name, const char *version) {
-    const struct gn_take_files *files = t->files;
+    const struct gn_disk *files = t->files;
     char target[sizeof versions + GN_TAKE_NAME];
     snprintf(target, sizeof target, "%s/%s", versions, version);
     if (files->unlink(files->user, t->folder, link_new, 0) != 0 && errno != ENOENT) return false;
@@ -251,7 +251,7 @@ static bool turn_link(const struct gn_take *t, const char *name, const char *ver
 }
 
 bool gn_take_keep(struct gn_take *t, struct gn_err *err) {
-    const struct gn_take_files *files = t->files;
+    const struct gn_disk *files = t->files;
     char name[GN_TAKE_NAME];
     snprintf(name, sizeof name, "%u-%016" PRIx64, t->number, t->hash);
     if (files->rename(files->user, t->versions, t->fresh, name) != 0 ||
@@ -264,7 +264,7 @@ bool gn_take_keep(struct gn_take *t, struct gn_err *err) {
 }
 
 bool gn_take_back(struct gn_take *t, struct gn_err *err) {
-    const struct gn_take_files *files = t->files;
+    const struct gn_disk *files = t->files;
     char shown[GN_TAKE_NAME];
     snprintf(shown, sizeof shown, "%s", t->shown);
     if (!t->before[0] || strcmp(t->before, shown) == 0)

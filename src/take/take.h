@@ -15,8 +15,8 @@
 #include <limits.h>
 #include <stdint.h>
 
+#include "core/disk.h"
 #include "core/err.h"
-#include "take/files.h"
 #include "take/shown.h"
 
 struct gn_take_limits {
@@ -28,7 +28,7 @@ struct gn_take_limits {
 
 enum { GN_TAKE_NAME = 40 };
 struct gn_take {
-    const struct gn_take_files *files;
+    const struct gn_disk *files;
     struct gn_take_limits limits;
     int folder, versions, lock; /* DIR, its versions, its lock; -1: not open */
     int from;                   /* the stick's folder gnomon; -1: none */
@@ -43,7 +43,7 @@ struct gn_take {
 };
 
 /* Makes DIR if only that is missing, locks it, and removes what an earlier process has left. */
-bool gn_take_open(struct gn_take *take, const struct gn_take_files *files, const char *dir,
+bool gn_take_open(struct gn_take *take, const struct gn_disk *files, const char *dir,
                   const struct gn_take_limits *limits, struct gn_err *err);
 void gn_take_close(struct gn_take *take); /* legal after a failure to open */
 

@@ -31,7 +31,6 @@ struct gn_raycast {
     const struct gn_material *materials; /* as the pose has them */
     struct gn_material *own;             /* the same, if they are not the scene's */
     struct gn_bvh bvh;
-    double lift_m; /* shadow rays start this far off a surface: 1e-5 of the scene's diagonal */
     double (*spiral)[2]; /* directions of the first points of gn_raycast_share() */
 };
 
@@ -62,8 +61,6 @@ void gn_ray_eye_init(struct gn_ray_eye *eye, const struct gn_pose *pose, uint32_
 /* The same of a camera that is framed already. */
 void gn_ray_eye_look(struct gn_ray_eye *eye, const struct gn_framing *framing, int width_px,
                      int height_px);
-/* Turns it about the vertical axis through a point, anticlockwise seen from above. */
-void gn_ray_eye_turn(struct gn_ray_eye *eye, const double centre_ws[3], double angle_rad);
 /* Size of one pixel in metres for a surface facing the eye at this point. */
 double gn_ray_eye_pixel_m(const struct gn_ray_eye *eye, const double point_ws[3]);
 

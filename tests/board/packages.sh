@@ -99,7 +99,7 @@ else
     tests=$(sed -n 's/^Tests: //p' board/debian/tests/control | tr -d ,) driver=llvmpipe
     if [ "$arch" != "$own" ]; then # qemu-user cannot run what llvmpipe compiles, and softpipe is slow
         tests='render import' driver=softpipe
-        echo "emulated: $tests; the rest, in a machine: make check-board-arm64"
+        echo "emulated: $tests; the rest, in a machine: make check-arm64"
     fi
     for test in $tests; do
         inside env AUTOPKGTEST_TMP=/tmp "GALLIUM_DRIVER=$driver" "/root/tests/$test" > "$work/log" 2>&1 ||

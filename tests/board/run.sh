@@ -2,7 +2,7 @@
 # run.sh FILE.guest: boots a virtual machine with the real kernel, runs the file in it, compares the
 # pictures that it asked for with what `gnomon render` draws here, and ends with 0, 77 (skipped, the
 # reason is the last line) or 1. It is the interpreter that a .guest file names, so such a file is a
-# test and is run like one. The machine sees this one's root read-only, and writes into a folder of
+# test and is run like one; a file with a comment `# tests: NAME..` is those, one after the other. The machine sees this one's root read-only, and writes into a folder of
 # BUILD alone.
 #   GN_FULL=1     the long form, for the test to look at
 #   GNOMON, BUILD the program, and the folder for files that come and go (build/release)
@@ -66,6 +66,12 @@ if [ -n "$systemd" ]; then
     cp "$(dirname "$build")/deb/${SUITE:-$(. /etc/os-release && echo "$VERSION_CODENAME")}"/gnomon{,-import}_*_amd64.deb "$out/debs/" || exit 1
 fi
 cp "$script" "$out/test.sh" || exit 1
+needs() { grep -E '^# (clock|heads|processors|kernel|systemd):' "$1"; }
+read -ra members < <(sed -n 's/^# tests: //p' "$script")
+for member in "${members[@]}"; do
+    [ "$(needs "$here/$member.guest")" = "$(needs "$script")" ] || { echo "$member needs another machine" && exit 1; }
+    mkdir -p "$out/tests/$member" && cp "$here/$member.guest" "$out/tests/$member/test.sh" || exit 1
+done
 heads=$(sed -n 's/^# heads: \([12]\)$/\1/p' "$script")
 heads=${heads:-1}
 limit_in() { sed -n "s/^# $1: \([0-9]*\) s.*/\1/p" "$script"; }
@@ -73,7 +79,7 @@ limit=$([ -z "${GN_FULL:-}" ] || limit_in 'limit in full')
 limit=${limit:-$(limit_in limit)}
 limit=${limit:-300}
 [ "$arch" = amd64 ] || limit=$((2 * limit)) # emulated, the other architecture is slower
-for setting in HOST_OUT="$out" LIMIT="$limit" GN_FULL="${GN_FULL:-}" HEADS="$heads" ${GUEST_ENV:-}; do
+for setting in HOST_OUT="$out" LIMIT="$limit" GN_FULL="${GN_FULL:-}" HEADS="$heads" MEMBERS="${members[*]}" ${GUEST_ENV:-}; do
     printf 'export %s=%q\n' "${setting%%=*}" "${setting#*=}"
 done > "$out/env"
 
@@ -195,20 +201,22 @@ elif [ "$(cat "$out/rc")" != 0 ]; then
 fi
 
 # 1/255 in 99.9 % of the pixels: two machines round alike, but for the last bit of a processor's vectors
-compare() { # TURN NAME ARGUMENT..
-    local turn=$1 name=$2
-    shift 2
+compare() { # FOLDER TURN NAME ARGUMENT..
+    local shot=$1/$3 turn=$2
+    shift 3
     case " $* " in *" --msaa "*) ;; *) set -- --msaa 0 "$@" ;; esac # as a screen without a GPU has it
-    if ! "$host/gnomon" render --backend egl -o "$out/$name-expected.png" "$@"; then
+    if ! "$host/gnomon" render --backend egl -o "$shot-expected.png" "$@"; then
         complain "gnomon render $*"
-    elif ! "$host/tests/tool_compare" --turn "$turn" "$out/$name.png" "$out/$name-expected.png"; then
-        complain "$name.png is not what gnomon render $* draws"
+    elif ! "$host/tests/tool_compare" --turn "$turn" "$shot.png" "$shot-expected.png"; then
+        complain "$shot.png is not what gnomon render $* draws"
     fi
 }
-while read -r turn name arguments; do
-    # shellcheck disable=SC2086
-    compare "$turn" "$name" ${arguments//\/tmp\//$out/bin/} # in the machine, it is /tmp
-done < <(cat "$out/compare" 2> /dev/null)
+for folder in "$out" "${members[@]/#/$out/tests/}"; do
+    while read -r turn name arguments; do
+        # shellcheck disable=SC2086
+        compare "$folder" "$turn" "$name" ${arguments//\/tmp\//$out/bin/} # in the machine, it is /tmp
+    done < <(cat "$folder/compare" 2> /dev/null)
+done
 
 echo "$test: $(echo "$EPOCHREALTIME $began" | awk '{ printf "%.1f", $1 - $2 }') s"
 [ "$bad" = 0 ] || echo "what is left of it: $out"

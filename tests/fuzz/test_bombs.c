@@ -42,8 +42,7 @@ static int64_t resident_kb(void) {
 static int show_scene(const struct gn_scene *scene, uint64_t triangles) {
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
-    const struct gn_frame_opts opts = {.shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.maps_bytes = (uint64_t)MAPS_MB << 20,
+    const struct gn_frame_opts opts = {.shadow.maps_bytes = (uint64_t)MAPS_MB << 20,
                                        .shadow.triangles = triangles};
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);

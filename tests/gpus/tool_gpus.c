@@ -168,13 +168,15 @@ static void stage_close(struct stage *s) {
 
 /* Small pictures, where all is seen: what is compiled does not depend on the size. */
 static struct gn_frame_opts opts_of(enum gn_technique technique, enum gn_encoding encoding) {
-    return (struct gn_frame_opts){.width_px = 64,
-                                  .height_px = 48,
-                                  .shadow.technique_given = true,
-                                  .shadow.technique = technique,
-                                  .shadow.encoding = encoding,
-                                  .shadow.map_px = 64,
-                                  .all_seen = true};
+    return (struct gn_frame_opts){
+        .output.width_px = 64,
+        .output.height_px = 48,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = technique,
+                       .map_px = 64,
+                       .map_format = GN_MAP_FORMAT(encoding, GN_MOMENTS_NONE)},
+        .all_seen = true};
 }
 
 /* ---- techniques: each with every light and encoding that it can have ------------------------ */
@@ -202,7 +204,8 @@ static void try_encoding(struct bench *b, const struct stage *s, enum gn_techniq
     if (gn_techniques[technique].on_plane) {
         opts.shadow.planar_in_stencil = encoding == GN_ENCODING_STENCIL;
         opts.shadow.planar_points = encoding == GN_ENCODING_MEAN ? 64 : 0;
-        opts.shadow.encoding = GN_ENCODING_AUTO;
+        GN_LIGHT_SET(&opts.shadow.any, map_format,
+                     GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
     }
     const enum gn_light_type type = s->scene->lights[0].type;
     if (draw(b, s, &opts, EVERYTHING, what) && !has_program(b, type, technique, encoding))
@@ -274,9 +277,9 @@ static void try_tones(struct bench *b, const struct stage *s, enum what wanted) 
         for (int form = 0; form < 3; form++) {
             struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF, GN_ENCODING_AUTO);
             opts.tone = (enum gn_tone)tone;
-            opts.unencoded = form == 1;
-            opts.keeps_alpha = form == 2;
-            if (opts.keeps_alpha) opts.background = GN_BACKGROUND_TRANSPARENT;
+            opts.output.unencoded = form == 1;
+            opts.output.keeps_alpha = form == 2;
+            if (opts.output.keeps_alpha) opts.background = GN_BACKGROUND_TRANSPARENT;
             draw(b, s, &opts, wanted, "tone");
         }
 }
@@ -292,11 +295,11 @@ static void try_outputs(struct bench *b, const struct stage *s, enum what wanted
                     opts_of(planar ? GN_TECHNIQUE_PLANAR : GN_TECHNIQUE_PCF, GN_ENCODING_AUTO);
                 snprintf(what, sizeof what, "picture of form %d, %u samples%s", form, msaa,
                          planar ? ", stencil" : "");
-                opts.msaa = msaa;
+                opts.output.msaa = msaa;
                 opts.shadow.planar_in_stencil = planar;
-                opts.unencoded = form == 1;
-                opts.output_linear = form == 2;
-                opts.output_float = form == 3;
+                opts.output.unencoded = form == 1;
+                opts.output.linear = form == 2;
+                opts.output.floats = form == 3;
                 b->gl->targets.wants_stencil = false;
                 if (draw(b, s, &opts, wanted, what) && form < 2) lay_over(b, what);
             }
@@ -318,9 +321,10 @@ static void try_overlays(struct bench *b, const struct stage *s) {
             struct gn_frame_opts opts = opts_of((enum gn_technique)t, (enum gn_encoding)encoding);
             if (!wants_encoding(b, (enum gn_technique)t, encoding, true)) continue;
             opts.shadow.planar_points = encoding == GN_ENCODING_MEAN ? 64 : 0;
-            opts.width_px = 320, opts.height_px = 240;
+            opts.output.width_px = 320, opts.output.height_px = 240;
             opts.debug.show_lights = opts.debug.show_maps = true;
-            opts.captions = gn_captions_run(captions, opts.width_px, opts.height_px, 0);
+            opts.cover.captions =
+                gn_captions_run(captions, opts.output.width_px, opts.output.height_px, 0);
             draw(b, s, &opts, ALL_BUT_LIT, "overlays");
         }
     gn_captions_destroy(captions);
@@ -340,7 +344,7 @@ static void try_maps(struct bench *b, enum gn_gpu_scene which) {
                 opts.view.turntable_rad = 0.7f * (float)step;
                 draw(b, &s, &opts, ALL_BUT_LIT, "maps");
             }
-            opts.shadow.faces = 1 + GN_CAST_MIDDLE;
+            GN_LIGHT_SET(&opts.shadow.any, faces, 1 + GN_CAST_MIDDLE);
             if (t == GN_TECHNIQUE_HARD) draw(b, &s, &opts, ALL_BUT_LIT, "maps of middles");
         }
     stage_close(&s);

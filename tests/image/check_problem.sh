@@ -52,7 +52,7 @@ stop
 # a state that cannot be written
 printf '%s\n' '[render]' 'shadow = none' '[kiosk]' 'state = nowhere/state' > kiosk.ini
 show -c kiosk.ini
-says 'problem: state: nowhere/state.new: cannot write: No such file.*' 'no folder for the state' 20
+says 'problem: state: nowhere/state: cannot write: No such file.*' 'no folder for the state' 20
 if [ "${GN_FULL:-}" = 1 ]; then
     sleep 70 # another attempt
     [ "$(grep -c 'cannot write' kiosk.err)" = 1 ] || complain "more than one warning: $(cat kiosk.err)"

@@ -220,8 +220,8 @@ for i in $(seq "$times"); do
     "$before") ;;
     *) complain "death $i: \"$starts $mode\", neither \"$before\" nor \"$after\"" ;;
     esac
-    [ ! -e state.new ] || within=$((within + 1))
-    rm -f state.new
+    [ -z "$(ls -A | grep '^\.gnomon-')" ] || within=$((within + 1))
+    rm -f .gnomon-*
 done
 kiosk=''
 echo "killed $times times, $within of them within a save; $new states were new"

@@ -32,7 +32,7 @@ static bool look(struct gn_drawer *drawer, const struct gn_settings *settings, s
         return ok;
     }
     if (!gn_stage_look_build(&look, settings, drawer->stage.scene, NULL, err)) return false;
-    drawer->stage.frame_opts = look.frame_opts;
+    drawer->stage.shown.opts = look.frame_opts;
     return true;
 }
 
@@ -49,7 +49,7 @@ bool gn_drawer_draw(struct gn_drawer *drawer, const char *const args[], float *r
     drawer->stage.settings = options.settings;
     gn_options_finish(&drawer->options);
     drawer->options = options;
-    return ok && gn_stage_draw(&drawer->stage, drawer->time_ns, NULL, err) &&
+    return ok && gn_view_draw(&drawer->stage.shown, &drawer->stage, drawer->time_ns, NULL, err) &&
            gn_gl_read_f32(drawer->stage.gl, rgba, err);
 }
 

@@ -41,15 +41,17 @@ int help_lamp_unload(void **state) {
 
 const struct gn_plan *help_lamp_draw(int camera, int technique, int encoding, int width_px,
                                      int height_px) {
-    struct gn_frame_opts opts = {.width_px = (uint32_t)width_px,
-                                 .height_px = (uint32_t)height_px,
-                                 .view.camera = camera,
-                                 .shadow.technique_given = true,
-                                 .shadow.technique = (enum gn_technique)technique,
-                                 .shadow.encoding = (enum gn_encoding)encoding,
-                                 .shadow.map_px = HELP_LAMP_MAP_PX,
-                                 .shadow.taps_fixed = true,
-                                 .debug.aov = GN_AOV_VISIBILITY};
+    struct gn_frame_opts opts = {
+        .output.width_px = (uint32_t)width_px,
+        .output.height_px = (uint32_t)height_px,
+        .view.camera = camera,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = (enum gn_technique)technique,
+                       .map_px = HELP_LAMP_MAP_PX,
+                       .map_format = GN_MAP_FORMAT((enum gn_encoding)encoding, GN_MOMENTS_NONE)},
+        .shadow.taps_fixed = true,
+        .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = gn_frame_build(lamp.frame, &lamp.pose, &opts, NULL);
     if (!gn_gl_prepare(lamp.gl, plan, &err) || !gn_gl_run(lamp.gl, plan, NULL, &err))

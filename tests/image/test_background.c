@@ -159,7 +159,7 @@ static void test_a_transparent_picture_can_be_laid_over_any_other(void **state) 
     compare(path, &(struct look){"none", "0", NULL}, false);
     compare(path, &(struct look){"neutral", "4", NULL}, false);
     compare(path, &(struct look){"neutral", "0", "srgb"}, false);
-    if (gn_shot_full()) compare(path, &(struct look){"agx", "4", "srgb"}, false);
+    compare(path, &(struct look){"agx", "4", "srgb"}, false);
 }
 
 static void test_so_can_one_that_lights_are_added_to(void **state) {
@@ -167,7 +167,7 @@ static void test_so_can_one_that_lights_are_added_to(void **state) {
     const char *path = make_scene("many", MANY);
     compare(path, &(struct look){"none", "4", NULL}, true);
     compare(path, &(struct look){"neutral", "0", NULL}, true);
-    if (gn_shot_full()) compare(path, &(struct look){"aces", "4", "srgb"}, true);
+    compare(path, &(struct look){"aces", "4", "srgb"}, true);
 }
 
 /* The corner shows it. */

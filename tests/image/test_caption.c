@@ -47,10 +47,9 @@ static int setup(void **state) {
     stage.scene->lights = own_lights;
     stage.pose.lights = own_lights;
     stage.scene->light_count = 3;
-    opts = (struct gn_frame_opts){.width_px = WIDTH,
-                                  .height_px = HEIGHT,
-                                  .shadow.encoding = GN_ENCODING_AUTO,
-                                  .shadow.map_px = 120};
+    opts = (struct gn_frame_opts){.output.width_px = WIDTH,
+                                  .output.height_px = HEIGHT,
+                                  .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 120}};
     captions = gn_captions_create(&(struct gn_captions_opts){0});
     gn_captions_set(captions, GN_CAPTION_INFO, "gnomon 0.1.0\nFrames: 59.9 a second", 0);
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft \xc3\xa4\xe4\xb8\x80", 0);
@@ -68,7 +67,7 @@ static int teardown(void **state) {
 }
 
 static const struct gn_plan *draw(const struct gn_caption_run *run, uint8_t picture[PIXELS][4]) {
-    opts.captions = run;
+    opts.cover.captions = run;
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (picture && !gn_gl_read_rgba8(stage.gl, &picture[0][0], &err)) fail_msg("%s", err.text);
     return plan;
@@ -131,7 +130,7 @@ static void expect_blended(const struct gn_caption_run *run, bool linear, int to
     for (size_t i = 0; i < PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             const double wanted =
-                255 * expected(i, bare[i][k] / 255.0, linear, encodes() && !opts.unencoded);
+                255 * expected(i, bare[i][k] / 255.0, linear, encodes() && !opts.output.unencoded);
             const double apart = fabs(shown[i][k] - wanted);
             if (apart > (light[i].strength > 0 ? tolerance + 0.5 : 0))
                 fail_msg("at %zu, %zu: %d over %d, not %.1f", i % WIDTH, i / WIDTH, shown[i][k],
@@ -142,12 +141,12 @@ static void expect_blended(const struct gn_caption_run *run, bool linear, int to
 /* ---- what is drawn ---- */
 
 /* Bytes that are blended as they are stored: right on black and white, and near it between. */
-static int tolerance(void) { return encodes() && !opts.unencoded ? 2 : 8; }
+static int tolerance(void) { return encodes() && !opts.output.unencoded ? 2 : 8; }
 
 static void test_pixels_are_what_the_run_says(void **state) {
     (void)state;
     for (int unencoded = 0; unencoded < 2; unencoded++) {
-        opts.unencoded = unencoded;
+        opts.output.unencoded = unencoded;
         draw(NULL, bare);
         draw(run_at(0), shown);
         expect_blended(run_at(0), false, tolerance());
@@ -177,7 +176,7 @@ static void test_it_is_white_on_dark(void **state) {
 
 static void test_linear_bytes(void **state) {
     (void)state;
-    opts.output_linear = true;
+    opts.output.linear = true;
     draw(NULL, bare);
     draw(run_at(0), shown);
     expect_blended(run_at(0), true, 2);
@@ -186,7 +185,7 @@ static void test_linear_bytes(void **state) {
 static void test_floats(void **state) {
     (void)state;
     static float before[PIXELS][4], after[PIXELS][4];
-    opts.output_float = true;
+    opts.output.floats = true;
     if (draw(NULL, NULL)->output != GN_OUTPUT_FLOAT) skip();
     if (!gn_gl_read_f32(stage.gl, &before[0][0], &err)) fail_msg("%s", err.text);
     draw(run_at(0), NULL);
@@ -201,7 +200,7 @@ static void test_floats(void **state) {
 
 static void test_antialiased(void **state) {
     (void)state;
-    opts.msaa = 4;
+    opts.output.msaa = 4;
     draw(NULL, bare);
     draw(run_at(0), shown);
     expect_blended(run_at(0), false, tolerance() + 1);
@@ -264,7 +263,7 @@ static void test_over_many_lights(void **state) {
     stage.pose.lights = many_lights;
     stage.scene->light_count = GN_LIGHTS_MAX + 2;
     for (uint32_t msaa = 0; msaa <= 4; msaa += 4) {
-        opts.msaa = msaa;
+        opts.output.msaa = msaa;
         const struct gn_plan *plan = draw(NULL, bare);
         assert_true(encodes() || plan->output == GN_OUTPUT_FLOAT);
         plan = draw(run_at(0), shown);
@@ -290,9 +289,9 @@ static void test_turned(void **state) {
     opts.view.camera = 1; /* looks away */
     draw(run_at(0), shown);
     for (unsigned deg = 90; deg < 360; deg += 90) {
-        opts.turn_deg = deg;
-        opts.width_px = deg % 180 ? HEIGHT : WIDTH;
-        opts.height_px = deg % 180 ? WIDTH : HEIGHT;
+        opts.output.turn_deg = deg;
+        opts.output.width_px = deg % 180 ? HEIGHT : WIDTH;
+        opts.output.height_px = deg % 180 ? WIDTH : HEIGHT;
         draw(run_at(0), other);
         for (size_t y = 0; y < HEIGHT; y++)
             for (size_t x = 0; x < WIDTH; x++)
@@ -327,7 +326,7 @@ static void test_shifted(void **state) {
 
 /* With that share of its light, of what was drawn of each target. */
 static void expect_dimmed(float left, const uint8_t before[PIXELS][4]) {
-    const bool stores_light = encodes() && !opts.unencoded;
+    const bool stores_light = encodes() && !opts.output.unencoded;
     for (size_t i = 0; i < PIXELS; i++)
         for (int k = 0; k < 3; k++) {
             const double was = before[i][k] / 255.0;
@@ -343,17 +342,17 @@ static void test_a_dimmed_picture_has_less_light(void **state) {
     (void)state;
     static const float shares[] = {0.9f, 0.3f, 0.02f};
     for (int unencoded = 0; unencoded < 2; unencoded++) {
-        opts.unencoded = unencoded;
+        opts.output.unencoded = unencoded;
         draw(NULL, bare);
         draw(run_at(0), other);
         for (int i = 0; i < 3; i++) {
-            opts.dimmed = 1.0f - shares[i];
+            opts.cover.dimmed = 1.0f - shares[i];
             draw(NULL, shown);
             expect_dimmed(shares[i], bare);
             draw(run_at(0), shown);
             expect_dimmed(shares[i], other);
         }
-        opts.dimmed = 0.0f;
+        opts.cover.dimmed = 0.0f;
         draw(NULL, shown);
         assert_memory_equal(shown, bare, sizeof bare);
     }
@@ -391,10 +390,10 @@ static void test_frames_make_nothing(void **state) {
 
 static void test_a_program_can_be_made_before(void **state) {
     (void)state;
-    opts.captions_later = true;
+    opts.cover.captions_later = true;
     const uint32_t programs = draw(NULL, NULL)->program_count;
     assert_int_equal(draw(run_at(0), NULL)->program_count, programs);
-    opts.captions_later = false;
+    opts.cover.captions_later = false;
     assert_int_equal(draw(NULL, NULL)->program_count, programs - 1);
 }
 

@@ -91,14 +91,16 @@ static void set_bands(const struct gn_shadow_view *view) {
 static const struct gn_shadow_view *draw_visibility(enum gn_technique technique,
                                                     enum gn_encoding encoding, uint32_t cascades,
                                                     struct gn_picture *shot) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                       .height_px = HEIGHT_PX,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = technique,
-                                       .shadow.encoding = encoding,
-                                       .shadow.map_px = MAP_PX,
-                                       .shadow.cascades = cascades,
-                                       .debug.aov = GN_AOV_VISIBILITY};
+    const struct gn_frame_opts opts = {
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = technique,
+                       .map_px = MAP_PX,
+                       .map_format = GN_MAP_FORMAT(encoding, GN_MOMENTS_NONE)},
+        .shadow.cascades = cascades,
+        .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_f32(stage.gl, aov, &err)) fail_msg("%s", err.text);
@@ -229,13 +231,15 @@ static struct gn_orbit orbit_at(int eye) {
 }
 
 static void draw_maps(enum gn_encoding encoding, int eye) {
-    const struct gn_frame_opts opts = {.width_px = 160,
-                                       .height_px = 90,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = GN_TECHNIQUE_PCF,
-                                       .shadow.encoding = encoding,
-                                       .shadow.map_px = SMALL_PX,
-                                       .view.orbit = orbit_at(eye)};
+    const struct gn_frame_opts opts = {
+        .output.width_px = 160,
+        .output.height_px = 90,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = GN_TECHNIQUE_PCF,
+                       .map_px = SMALL_PX,
+                       .map_format = GN_MAP_FORMAT(encoding, GN_MOMENTS_NONE)},
+        .view.orbit = orbit_at(eye)};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     shots[eye].view = plan->shadows[0];
@@ -335,13 +339,15 @@ static void test_depth_maps_move_by_whole_texels(void **state) {
 static void test_beside_a_tile_all_is_clear(void **state) {
     (void)state;
     for (uint32_t cascades = 4; cascades >= 2; cascades--) {
-        const struct gn_frame_opts opts = {.width_px = 160,
-                                           .height_px = 90,
-                                           .shadow.technique_given = true,
-                                           .shadow.technique = GN_TECHNIQUE_PCSS,
-                                           .shadow.encoding = GN_ENCODING_R32UI,
-                                           .shadow.map_px = SMALL_PX,
-                                           .shadow.cascades = cascades};
+        const struct gn_frame_opts opts = {
+            .output.width_px = 160,
+            .output.height_px = 90,
+            .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                    GN_LIGHT_GIVEN(map_format),
+                           .technique = GN_TECHNIQUE_PCSS,
+                           .map_px = SMALL_PX,
+                           .map_format = GN_MAP_FORMAT(GN_ENCODING_R32UI, GN_MOMENTS_NONE)},
+            .shadow.cascades = cascades};
         struct gn_err err = {0};
         struct shot shot = {.view = help_stage_draw(&stage, &opts, NULL)->shadows[0]};
         assert_int_equal(shot.view.map.cascade_count, cascades);
@@ -364,12 +370,13 @@ static void test_a_moving_eye_makes_nothing(void **state) {
         float least_px = INFINITY, most_px = 0.0f;
         uint64_t objects = 0;
         for (int eye = 0; eye < EYES; eye++) {
-            const struct gn_frame_opts opts = {.width_px = 160,
-                                               .height_px = 90,
-                                               .shadow.technique_given = true,
-                                               .shadow.technique = techniques[t],
-                                               .shadow.map_px = SMALL_PX,
-                                               .view.orbit = orbit_at(eye)};
+            const struct gn_frame_opts opts = {
+                .output.width_px = 160,
+                .output.height_px = 90,
+                .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                               .technique = techniques[t],
+                               .map_px = SMALL_PX},
+                .view.orbit = orbit_at(eye)};
             const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
             assert_int_equal(plan->shadows[0].map.cascade_count, 4);
             least_px = fminf(least_px, plan->shadows[0].lookup.reach_px);

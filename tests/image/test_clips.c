@@ -74,7 +74,7 @@ static void clips_that_stand_draw_nothing(void **state) {
         draw_frame(show);
         show->kiosk.play.time_ns = show->kiosk.play.length_ns; /* it ends */
         until_still(show);
-        assert_int_equal(show->stage.pose.over, -1);
+        assert_int_equal(show->stage.pose.at.over, -1);
         gn_show_close(show);
     }
 }
@@ -86,7 +86,7 @@ static void play_past_its_fade(struct gn_show *show) {
     show->kiosk.play.time_ns = GN_NS_PER_S;
     draw_frame(show);
     draw_frame(show);
-    assert_true(show->stage.pose.fade == 1 && show->stage.pose.over >= 0);
+    assert_true(show->stage.pose.at.fade == 1 && show->stage.pose.at.over >= 0);
 }
 
 static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
@@ -96,17 +96,17 @@ static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
                                      "[kiosk]\ncaptions = no\nclip_fade = 5\n");
     until_warm(show);
     draw_frame(show);
-    assert_true(show->stage.pose.fade == 1);
+    assert_true(show->stage.pose.at.fade == 1);
     double before = pose_sum(show);
     act(show, GN_ACTION_NEXT, NULL);
     while (show->drawn.mode != 1) draw_frame(show);
-    assert_true(show->stage.pose.fade < 1);
+    assert_true(show->stage.pose.at.fade < 1);
     assert_float_equal(pose_sum(show), before, 1e-2 * before);
     play_past_its_fade(show);
     before = pose_sum(show);
     act(show, GN_ACTION_PLAY, "gull");
     draw_frame(show);
-    assert_true(show->stage.pose.fade < 1);
+    assert_true(show->stage.pose.at.fade < 1);
     assert_float_equal(pose_sum(show), before, 1e-2 * before);
     gn_show_close(show);
 }
@@ -122,14 +122,14 @@ static void settings_that_change_start_no_clip_again(void **state) {
     for (int i = 0; i < 20; i++) {
         gn_show_enter(show);
         draw_frame(show);
-        assert_true(show->stage.pose.fade == 1);
+        assert_true(show->stage.pose.at.fade == 1);
     }
     gn_show_close(show);
 }
 
 static int64_t clip_ns(const struct gn_show *show) {
-    return gn_pose_clip_ns(&show->stage.pose.run, INT64_MAX,
-                           show->stage.pose.time_ns - show->stage.pose.begun_ns);
+    return gn_pose_clip_ns(&show->stage.pose.at.run, INT64_MAX,
+                           show->stage.pose.at.time_ns - show->stage.pose.at.begun_ns);
 }
 
 static void a_mode_that_restarts_begins_its_clips(void **state) {

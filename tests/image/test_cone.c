@@ -83,13 +83,13 @@ static void view_finish(struct view *v) {
 /* The light's visibility. */
 static void shoot(const struct view *v, enum gn_technique technique, struct gn_picture *shot) {
     static float aov[4 * PIXELS_MAX];
-    const struct gn_frame_opts opts = {.width_px = (uint32_t)v->truth.width_px,
-                                       .height_px = (uint32_t)v->truth.height_px,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = technique,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.map_px = 1024,
-                                       .debug.aov = GN_AOV_VISIBILITY};
+    const struct gn_frame_opts opts = {
+        .output.width_px = (uint32_t)v->truth.width_px,
+        .output.height_px = (uint32_t)v->truth.height_px,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = technique,
+                       .map_px = 1024},
+        .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     struct gn_pose pose;
     gn_pose_init(&pose, v->scene, GN_POSE_DEFAULT);

@@ -59,13 +59,13 @@ static void test_a_box_is_a_straight_ramp(void **state) {
     struct gn_err err = {0};
     help_stage_open(&stage, make_edge, "egl", NULL, NULL);
     for (int i = 0; i < 2; i++) {
-        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                           .height_px = HEIGHT_PX,
-                                           .shadow.technique_given = true,
-                                           .shadow.technique = boxes[i].technique,
-                                           .shadow.encoding = GN_ENCODING_AUTO,
-                                           .shadow.map_px = 32,
-                                           .debug.aov = GN_AOV_VISIBILITY};
+        const struct gn_frame_opts opts = {
+            .output.width_px = WIDTH_PX,
+            .output.height_px = HEIGHT_PX,
+            .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                           .technique = boxes[i].technique,
+                           .map_px = 32},
+            .debug.aov = GN_AOV_VISIBILITY};
         const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
         if (!gn_gl_read_f32(stage.gl, aov, &err)) fail_msg("%s", err.text);
         const double px = (double)plan->shadows[0].lookup.texel / SUN_COSINE * WIDTH_PX / VIEW_M;
@@ -126,15 +126,14 @@ static void test_white_noise_is_white(void **state) {
     float *const pictures[] = {white, disk, fixed};
     help_stage_open(&stage, make_edge, "egl", NULL, NULL);
     for (int i = 0; i < 3; i++) {
-        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                           .height_px = HEIGHT_PX,
-                                           .shadow.technique_given = true,
-                                           .shadow.technique =
-                                               i == 1 ? GN_TECHNIQUE_DISK : GN_TECHNIQUE_WHITE,
-                                           .shadow.encoding = GN_ENCODING_AUTO,
-                                           .shadow.map_px = 24,
-                                           .shadow.taps_fixed = i == 2,
-                                           .debug.aov = GN_AOV_VISIBILITY};
+        const struct gn_frame_opts opts = {
+            .output.width_px = WIDTH_PX,
+            .output.height_px = HEIGHT_PX,
+            .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                           .technique = i == 1 ? GN_TECHNIQUE_DISK : GN_TECHNIQUE_WHITE,
+                           .map_px = 24},
+            .shadow.taps_fixed = i == 2,
+            .debug.aov = GN_AOV_VISIBILITY};
         help_stage_draw(&stage, &opts, NULL);
         if (!gn_gl_read_f32(stage.gl, pictures[i], &err)) fail_msg("%s", err.text);
     }
@@ -158,14 +157,15 @@ static double width_of_vsm(struct help_stage *stage, enum gn_moments moments, in
     struct gn_err err = {0};
     double sum = 0;
     for (uint32_t i = 0; i < SIZES; i++) {
-        const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                           .height_px = HEIGHT_PX,
-                                           .shadow.technique_given = true,
-                                           .shadow.technique = GN_TECHNIQUE_VSM,
-                                           .shadow.encoding = GN_ENCODING_AUTO,
-                                           .shadow.moments = moments,
-                                           .shadow.map_px = 64 + 5 * i,
-                                           .debug.aov = GN_AOV_VISIBILITY};
+        const struct gn_frame_opts opts = {
+            .output.width_px = WIDTH_PX,
+            .output.height_px = HEIGHT_PX,
+            .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                    GN_LIGHT_GIVEN(map_format),
+                           .technique = GN_TECHNIQUE_VSM,
+                           .map_px = 64 + 5 * i,
+                           .map_format = GN_MAP_FORMAT(GN_ENCODING_AUTO, moments)},
+            .debug.aov = GN_AOV_VISIBILITY};
         const struct gn_plan *plan = help_stage_draw(stage, &opts, NULL);
         if (!gn_gl_read_f32(stage->gl, aov, &err)) fail_msg("%s", err.text);
         const double px = (double)plan->shadows[0].lookup.texel / SUN_COSINE * WIDTH_PX / VIEW_M;
@@ -254,13 +254,15 @@ static struct gn_scene *make_cubes(void) {
 enum { MAP_PX = 256, TEXELS_MAX = 6 * MAP_PX * MAP_PX };
 
 static struct gn_frame_opts map_opts(enum gn_encoding encoding) {
-    return (struct gn_frame_opts){.width_px = 160,
-                                  .height_px = 120,
-                                  .shadow.technique_given = true,
-                                  .shadow.technique = GN_TECHNIQUE_HARD,
-                                  .shadow.encoding = encoding,
-                                  .shadow.map_px = MAP_PX,
-                                  .shadow.cascades = 1};
+    return (struct gn_frame_opts){
+        .output.width_px = 160,
+        .output.height_px = 120,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = GN_TECHNIQUE_HARD,
+                       .map_px = MAP_PX,
+                       .map_format = GN_MAP_FORMAT(encoding, GN_MOMENTS_NONE)},
+        .shadow.cascades = 1};
 }
 
 /* The distances or depths that the map holds, metres; INFINITY: nothing. */
@@ -268,7 +270,7 @@ static uint32_t read_distances(struct help_stage *stage, enum gn_encoding encodi
                                enum gn_cast_faces faces, float *to) {
     struct gn_err err = {0};
     struct gn_frame_opts opts = map_opts(encoding);
-    opts.shadow.faces = 1 + (int)faces;
+    GN_LIGHT_SET(&opts.shadow.any, faces, 1 + (int)faces);
     const struct gn_shadow_view *view = help_stage_draw(stage, &opts, NULL)->shadows;
     assert_int_equal(view->encoding, encoding);
     if (!gn_gl_read_map(stage->gl, 0, to, &err)) fail_msg("%s", err.text);
@@ -360,8 +362,9 @@ static void test_tiles_have_no_mipmaps(void **state) {
         struct help_stage stage;
         struct gn_warnings warnings = {0};
         struct gn_frame_opts opts = map_opts(GN_ENCODING_AUTO);
-        opts.shadow.technique = GN_TECHNIQUE_VSM;
-        opts.shadow.moments = GN_MOMENTS_RGBA16F_MIPS;
+        GN_LIGHT_SET(&opts.shadow.any, technique, GN_TECHNIQUE_VSM);
+        GN_LIGHT_SET(&opts.shadow.any, map_format,
+                     GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA16F_MIPS));
         light_type = (enum gn_light_type)type;
         help_stage_open(&stage, make_cubes, "egl", NULL, NULL);
         const struct gn_plan *plan = help_stage_draw(&stage, &opts, &warnings);

@@ -184,7 +184,7 @@ static void test_as_many_moments_as_may_be(void **state) {
 static void test_as_many_samplers_as_may_be(void **state) {
     (void)state;
     struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-    key.features = gn_features_all() - GN_FEATURE(UNLIT);
+    key.features = GN_FEATURES_ALL - GN_FEATURE(UNLIT);
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         add_light(&key, i == 3 ? GN_LIGHT_DIRECTIONAL : GN_LIGHT_SPOT, GN_TECHNIQUE_CONE, 0);
         filter_map(&key.lights[i], GN_MOMENTS_CONE_RG16F);
@@ -197,8 +197,7 @@ static void test_features(void **state) {
     (void)state;
     for (int i = 0; i <= GN_FEATURE_COUNT; i++) {
         struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-        key.features =
-            i == GN_FEATURE_COUNT ? gn_features_all() : UINT64_C(1) << gn_features[i].bit;
+        key.features = i == GN_FEATURE_COUNT ? GN_FEATURES_ALL : UINT64_C(1) << i;
         add_light(&key, GN_LIGHT_DIRECTIONAL, GN_TECHNIQUE_PCF, GN_ENCODING_DEPTH);
         add_light(&key, GN_LIGHT_POINT, GN_TECHNIQUE_NONE, 0);
         compiles(&key);
@@ -238,7 +237,7 @@ static void test_many_lights(void **state) {
     for (int i = GN_SHADOWS_MAX; i < GN_LIGHTS_MAX; i++)
         add_light(&key, i % 3, GN_TECHNIQUE_NONE, 0);
     compiles(&key);
-    key.features |= gn_features_all();
+    key.features |= GN_FEATURES_ALL;
     compiles(&key);
     key.lights[GN_SHADOWS_MAX - 1].type = GN_LIGHT_POINT; /* two ways to be looked up, in one */
     key.lights[GN_SHADOWS_MAX - 1].technique = GN_TECHNIQUE_PLANAR;
@@ -266,7 +265,7 @@ static void test_slides(void **state) {
 static void test_as_many_slides_as_may_be(void **state) {
     (void)state;
     struct gn_program_key key = key_of(GN_PROGRAM_LIT);
-    key.features = gn_features_all() - GN_FEATURE(UNLIT);
+    key.features = GN_FEATURES_ALL - GN_FEATURE(UNLIT);
     for (int i = 0; i < GN_LIGHTS_MAX; i++) {
         add_light(&key, GN_LIGHT_SPOT, i < GN_SHADOWS_MAX ? GN_TECHNIQUE_PCF : GN_TECHNIQUE_NONE,
                   i % GN_ENCODING_COUNT);

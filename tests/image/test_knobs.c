@@ -37,13 +37,13 @@ static int close_all(void **state) {
 }
 
 static struct gn_frame_opts opts_of(enum gn_technique technique) {
-    return (struct gn_frame_opts){.width_px = WIDTH_PX,
-                                  .height_px = HEIGHT_PX,
-                                  .shadow.technique_given = true,
-                                  .shadow.technique = technique,
-                                  .shadow.encoding = GN_ENCODING_AUTO,
-                                  .shadow.map_px = 1024,
-                                  .debug.aov = GN_AOV_VISIBILITY};
+    return (struct gn_frame_opts){
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = technique,
+                       .map_px = 1024},
+        .debug.aov = GN_AOV_VISIBILITY};
 }
 
 /* Into aov, four floats a pixel. */
@@ -58,7 +58,7 @@ static double wrong_with(uint32_t cascades) {
     struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
     struct gn_picture shot;
     struct gn_mask_score score;
-    opts.shadow.cascade_count = cascades;
+    GN_LIGHT_SET(&opts.shadow.any, cascades, cascades);
     const uint32_t got = draw(&opts)->shadows[0].map.cascade_count;
     gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
     for (int i = 0; i < PIXELS; i++) shot.data[i] = aov[4 * i];
@@ -89,7 +89,7 @@ static void test_which_faces_cast(void **state) {
     for (int faces = 0; faces < 5; faces++) {
         struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
         struct gn_picture shot;
-        opts.shadow.faces = words[faces];
+        GN_LIGHT_SET(&opts.shadow.any, faces, words[faces]);
         draw(&opts);
         gn_picture_init(&shot, WIDTH_PX, HEIGHT_PX, 1);
         for (int i = 0; i < PIXELS; i++) shot.data[i] = aov[4 * i];
@@ -115,8 +115,8 @@ static void test_a_middle_needs_no_bias(void **state) {
     struct gn_mask_score scores[3];
     for (int i = 0; i < 3; i++) {
         struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
-        opts.shadow.faces = words[i];
-        opts.shadow.bias_given = true;
+        GN_LIGHT_SET(&opts.shadow.any, faces, words[i]);
+        GN_LIGHT_SET(&opts.shadow.any, bias_texels, 0);
         draw(&opts);
         gn_mask_compare(&truth.mask, aov, 4, &scores[i]);
         printf("no bias, faces %s: acne %.4f %%, gap %.2f %%, wrong %.3f %%\n", names[i],
@@ -137,7 +137,7 @@ static void test_sixteen_bits(void **state) {
     for (int i = 0; i < 2; i++) {
         struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF);
         struct gn_picture shot;
-        opts.shadow.encoding = encodings[i];
+        GN_LIGHT_SET(&opts.shadow.any, map_format, GN_MAP_FORMAT(encodings[i], GN_MOMENTS_NONE));
         const struct gn_shadow_view *view = draw(&opts)->shadows;
         assert_int_equal(view->encoding, encodings[i]);
         bias_m[i] = view->code.ulp_m;
@@ -169,8 +169,8 @@ static void test_a_larger_light_has_wider_penumbrae(void **state) {
     const int own = count_partly_lit();
     float *before = gn_xalloc(4 * PIXELS, sizeof *before);
     memcpy(before, aov, 4 * PIXELS * sizeof *aov);
-    opts.shadow.lights[0] = (struct gn_frame_light_opts){.given = GN_LIGHT_RADIUS,
-                                                         .radius = stage.scene->lights[0].radius};
+    opts.shadow.lights[0] = (struct gn_light_opts){.given = GN_LIGHT_GIVEN(radius),
+                                                   .radius = stage.scene->lights[0].radius};
     opts.shadow.light_count = 1;
     draw(&opts);
     assert_memory_equal(before, aov, 4 * PIXELS * sizeof *aov); /* the same one */
@@ -189,16 +189,14 @@ static void test_highlights_stay_in_shadow_as_told(void **state) {
     double sums[3] = {0}; /* red of all pixels in shadow: as the rest, .302, none */
     float *lit = gn_xalloc(4 * PIXELS, sizeof *lit);
     opts.debug.aov = GN_AOV_COLOR;
-    opts.output_linear = opts.output_float = true;
+    opts.output.linear = opts.output.floats = true;
     opts.exposure_given = true;
-    opts.shadow.strength_given = true;
-    opts.shadow.strength = 0.0f;
+    GN_LIGHT_SET(&opts.shadow.any, strength, 0.0f);
     draw(&opts);
     memcpy(lit, aov, 4 * PIXELS * sizeof *aov);
-    opts.shadow.strength = 1.0f - 77.0f / 255.0f;
+    GN_LIGHT_SET(&opts.shadow.any, strength, 1.0f - 77.0f / 255.0f);
     for (int i = 0; i < 3; i++) {
-        opts.shadow.specular_given = i > 0;
-        opts.shadow.specular = i == 1 ? 0.302f : 0.0f;
+        if (i > 0) GN_LIGHT_SET(&opts.shadow.any, specular, i == 1 ? 0.302f : 0.0f);
         draw(&opts);
         for (int p = 0; p < PIXELS; p++) {
             assert_true(aov[4 * p] <= lit[4 * p] * 1.0001f + 1e-5f);

@@ -49,7 +49,7 @@ static struct gn_show *open_show(void) {
 
 static enum work work_of(const struct gn_show *show) {
     if (show->scenes.staged)
-        return !show->scenes.frame ? BEGINS : show->scenes.whole ? WARMS : UPLOADS;
+        return !show->scenes.view.pose ? BEGINS : show->scenes.whole ? WARMS : UPLOADS;
     return show->reload.options ? READS : CALM;
 }
 

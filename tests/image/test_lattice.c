@@ -117,13 +117,13 @@ static const enum gn_technique techniques[] = {
 enum { TECHNIQUES = sizeof techniques / sizeof techniques[0] };
 
 static const struct gn_shadow_view *draw(enum gn_technique technique) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH,
-                                       .height_px = HEIGHT,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = technique,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.map_px = 128,
-                                       .debug.aov = GN_AOV_VISIBILITY};
+    const struct gn_frame_opts opts = {
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = technique,
+                       .map_px = 128},
+        .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_f32(stage.gl, picture, &err)) fail_msg("%s", err.text);

@@ -58,13 +58,13 @@ static int close_all(void **state) {
 }
 
 static struct gn_frame_opts opts_of(enum gn_technique technique) {
-    return (struct gn_frame_opts){.width_px = WIDTH_PX,
-                                  .height_px = HEIGHT_PX,
-                                  .shadow.technique_given = true,
-                                  .shadow.technique = technique,
-                                  .shadow.encoding = GN_ENCODING_AUTO,
-                                  .shadow.map_px = 1024,
-                                  .debug.aov = GN_AOV_VISIBILITY};
+    return (struct gn_frame_opts){
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = technique,
+                       .map_px = 1024},
+        .debug.aov = GN_AOV_VISIBILITY};
 }
 
 static void draw_scene(const struct gn_scene *scene, const struct gn_frame_opts *opts) {
@@ -104,7 +104,7 @@ static struct gn_mask_score score_of(const char *what, const struct gn_frame_opt
     }
     printf("%s, %s: darkening %.3f %%, over 5 %%: %.3f %%, gap %.2f %%, wrong %.3f %%, "
            "shades %.2f %%\n",
-           gn_techniques[opts->shadow.technique].name, what, gn_mask_darkening(&sum),
+           gn_techniques[opts->shadow.any.technique].name, what, gn_mask_darkening(&sum),
            gn_mask_darkened(&sum), gn_mask_gap(&sum), gn_mask_wrong(&sum),
            100 * (double)shades / (double)sum.pixels);
     return sum;
@@ -113,8 +113,7 @@ static struct gn_mask_score score_of(const char *what, const struct gn_frame_opt
 static struct gn_mask_score with_bias(enum gn_technique technique, float texels) {
     struct gn_frame_opts opts = opts_of(technique);
     char what[32];
-    opts.shadow.bias_given = true;
-    opts.shadow.bias_texels = texels;
+    GN_LIGHT_SET(&opts.shadow.any, bias_texels, texels);
     snprintf(what, sizeof what, "bias %g", (double)texels);
     return score_of(what, &opts);
 }
@@ -152,7 +151,7 @@ static void test_the_radius_of_a_filter(void **state) {
         uint64_t counts[4];
         for (int k = 0; k < 4; k++) {
             char what[32];
-            opts.shadow.filter_radius_px = radii[k];
+            GN_LIGHT_SET(&opts.shadow.any, filter_radius_px, radii[k]);
             snprintf(what, sizeof what, "radius %g", (double)radii[k]);
             scores[k] = score_of(what, &opts);
             counts[k] = shades;
@@ -175,11 +174,11 @@ static void find_noise(enum gn_technique technique, double noise[COUNTS]) {
     uint64_t pixels[COUNTS] = {0};
     for (int k = 0; k < COUNTS; k++) noise[k] = 0;
     for (int i = 0; i < SCENES; i++) {
-        opts.shadow.taps = GN_TAPS_MAX;
+        GN_LIGHT_SET(&opts.shadow.any, taps, GN_TAPS_MAX);
         draw_scene(scenes[i].scene, &opts);
         for (int p = 0; p < PIXELS; p++) many[p] = aov[4 * p];
         for (int k = 0; k < COUNTS; k++) {
-            opts.shadow.taps = counts[k];
+            GN_LIGHT_SET(&opts.shadow.any, taps, counts[k]);
             draw_scene(scenes[i].scene, &opts);
             for (int p = 0; p < PIXELS; p++) {
                 const double d = (double)(aov[4 * p] - many[p]);

@@ -28,10 +28,9 @@ static void open_with(const char *backend, const char *without) {
     memcpy(own, stage.scene->lights, sizeof own);
     stage.scene->lights = lights; /* none of them is made yet */
     stage.pose.lights = lights;
-    opts = (struct gn_frame_opts){.width_px = WIDTH,
-                                  .height_px = HEIGHT,
-                                  .shadow.encoding = GN_ENCODING_AUTO,
-                                  .shadow.map_px = 256,
+    opts = (struct gn_frame_opts){.output.width_px = WIDTH,
+                                  .output.height_px = HEIGHT,
+                                  .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 256},
                                   .exposure_given = true};
 }
 
@@ -129,8 +128,7 @@ static void expect_each(const uint32_t counts[3][4], uint32_t each_pass) {
 static void test_many_open_lights_are_one(void **state) {
     (void)state;
     static const uint32_t counts[3][4] = {{9}, {2, 8, 9, 12}, {12}};
-    opts.shadow.technique_given = true;
-    opts.shadow.technique = GN_TECHNIQUE_NONE;
+    GN_LIGHT_SET(&opts.shadow.any, technique, GN_TECHNIQUE_NONE);
     expect_each(counts, GN_LIGHTS_MAX);
 }
 
@@ -146,8 +144,7 @@ static void test_strength_holds_in_every_pass(void **state) {
     one_kind();
     share(SPOT, 1);
     draw(many);
-    opts.shadow.strength_given = true;
-    opts.shadow.strength = 0.7f;
+    GN_LIGHT_SET(&opts.shadow.any, strength, 0.7f);
     draw(one);
     assert_true(apart(one, many, 1) > 2.0); /* shadows are paler */
     expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
@@ -177,8 +174,7 @@ static void test_blended_things_in_a_row(void **state) {
         stage.scene->materials[i].alpha = GN_ALPHA_BLEND;
         stage.scene->materials[i].base_color[3] = 0.4f;
     }
-    opts.shadow.technique_given = true;
-    opts.shadow.technique = GN_TECHNIQUE_NONE;
+    GN_LIGHT_SET(&opts.shadow.any, technique, GN_TECHNIQUE_NONE);
     opts.view.turntable_rad = 1.4f; /* one behind the other */
     expect_one(SPOT, (const uint32_t[4]){9, 12}, GN_LIGHTS_MAX, 2);
 }
@@ -186,7 +182,7 @@ static void test_blended_things_in_a_row(void **state) {
 static void test_antialiased(void **state) {
     (void)state;
     if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
-    opts.msaa = 4;
+    opts.output.msaa = 4;
     close_the_pane();
     one_kind();
     expect_one(SPOT, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 1);
@@ -196,14 +192,14 @@ static void test_antialiased(void **state) {
 static void test_antialiased_without_srgb(void **state) {
     (void)state;
     if (!(gn_gl_caps(stage.gl)->has & 1u << GN_CAP_MSAA4)) skip();
-    opts.msaa = 4;
+    opts.output.msaa = 4;
     one_kind();
     share(SPOT, 5);
     assert_int_equal(draw(one)->output, GN_OUTPUT_FLOAT);
     share(SPOT, 8);
     draw(many);
     assert_true(apart(one, many, 1) <= 1.0);
-    opts.msaa = 0;
+    opts.output.msaa = 0;
     draw(many);
     assert_true(apart(one, many, 1) > 2.0);
 }
@@ -211,7 +207,7 @@ static void test_antialiased_without_srgb(void **state) {
 static void test_light_adds_up_in_linear_bytes_too(void **state) {
     (void)state;
     one_kind();
-    opts.output_linear = true;
+    opts.output.linear = true;
     expect_one(SUN, (const uint32_t[4]){8}, GN_SHADOWS_MAX, 2);
 }
 
@@ -223,8 +219,7 @@ static void test_the_weakest_are_left_out_by_name(void **state) {
     share(BULB, GN_ALL_LIGHTS_MAX + 2);
     lights[5].name = "Faint";
     glm_vec3_scale(lights[5].color, 0.5f, lights[5].color);
-    opts.shadow.technique_given = true;
-    opts.shadow.technique = GN_TECHNIQUE_NONE;
+    GN_LIGHT_SET(&opts.shadow.any, technique, GN_TECHNIQUE_NONE);
     const struct gn_plan *plan = draw(NULL);
     assert_int_equal(plan->light_count, GN_ALL_LIGHTS_MAX);
     assert_true(warnings.count > 0);
@@ -304,10 +299,11 @@ static void test_everything_at_once(void **state) {
         lights[i].technique = techniques[i % 5];
     }
     one_kind();
-    if (full) opts.width_px = 1280, opts.height_px = 720;
+    if (full) opts.output.width_px = 1280, opts.output.height_px = 720;
     const int step = full || main_context ? 1 : 3;
     for (int encoding = 0; encoding <= GN_ENCODING_AUTO; encoding += step) {
-        opts.shadow.encoding = (enum gn_encoding)encoding;
+        GN_LIGHT_SET(&opts.shadow.any, map_format,
+                     GN_MAP_FORMAT((enum gn_encoding)encoding, GN_MOMENTS_NONE));
         const struct gn_plan *plan = draw(NULL);
         assert_int_equal(plan->shadow_count, GN_ALL_SHADOWS_MAX);
         assert_int_equal(plan->light_count, GN_ALL_LIGHTS_MAX);

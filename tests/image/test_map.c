@@ -59,14 +59,16 @@ static struct gn_orbit orbit_at(int path, int step) {
 }
 
 static void draw_map(enum gn_encoding encoding, const struct gn_orbit *orbit, struct shot *shot) {
-    struct gn_frame_opts opts = {.width_px = 80,
-                                 .height_px = 120,
-                                 .shadow.technique_given = true,
-                                 .shadow.technique = GN_TECHNIQUE_HARD,
-                                 .shadow.encoding = encoding,
-                                 .shadow.cascades = 1,
-                                 .shadow.map_px = MAP_PX,
-                                 .view.orbit = *orbit};
+    struct gn_frame_opts opts = {
+        .output.width_px = 80,
+        .output.height_px = 120,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = GN_TECHNIQUE_HARD,
+                       .map_px = MAP_PX,
+                       .map_format = GN_MAP_FORMAT(encoding, GN_MOMENTS_NONE)},
+        .shadow.cascades = 1,
+        .view.orbit = *orbit};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_map(stage.gl, 0, shot->codes, &err)) fail_msg("%s", err.text);
@@ -231,17 +233,18 @@ static uint32_t draws_of(struct gn_frame_opts *opts) {
 
 static void test_a_still_scene_makes_no_map_and_no_cones(void **state) {
     (void)state;
-    struct gn_frame_opts opts = {.width_px = 80,
-                                 .height_px = 120,
-                                 .shadow.technique_given = true,
-                                 .shadow.technique = GN_TECHNIQUE_CONE,
-                                 .shadow.map_px = MAP_PX};
+    struct gn_frame_opts opts = {
+        .output.width_px = 80,
+        .output.height_px = 120,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = GN_TECHNIQUE_CONE,
+                       .map_px = MAP_PX}};
     const uint32_t all = draws_of(&opts);
     assert_true(all > 4);
     assert_int_equal(draws_of(&opts), 0);
     opts.exposure_given = true;
     assert_int_equal(draws_of(&opts), 0);
-    opts.shadow.map_px = 2 * MAP_PX;
+    GN_LIGHT_SET(&opts.shadow.any, map_px, 2 * MAP_PX);
     assert_true(draws_of(&opts) > 4);
     assert_int_equal(draws_of(&opts), 0);
 }

@@ -30,15 +30,15 @@ static uint64_t kept_bytes(void) {
 }
 
 static void compare(const struct gn_frame_opts *opts) {
+    const struct gn_light_opts *any = &opts->shadow.any;
+    const enum gn_encoding encoding = GN_MAP_FORMAT_ENCODING(any->map_format);
     const struct gn_plan *plan = gn_frame_build(stage.frame, &stage.pose, opts, NULL);
     const uint64_t allocated = allocated_bytes(plan), counted = gn_plan_map_bytes(plan);
     if (allocated != counted)
         fail_msg("%s, %s, %s, %u px: %llu bytes allocated, %llu counted",
-                 gn_techniques[opts->shadow.technique].name,
-                 opts->shadow.encoding < GN_ENCODING_COUNT
-                     ? gn_encodings[opts->shadow.encoding].name
-                     : "auto",
-                 gn_moments[opts->shadow.moments].name, opts->shadow.map_px,
+                 gn_techniques[any->technique].name,
+                 encoding < GN_ENCODING_COUNT ? gn_encodings[encoding].name : "auto",
+                 gn_moments[GN_MAP_FORMAT_MOMENTS(any->map_format)].name, any->map_px,
                  (unsigned long long)allocated, (unsigned long long)counted);
     assert_true(opts->shadow.maps_bytes == 0 || kept_bytes() <= opts->shadow.maps_bytes);
 }
@@ -54,19 +54,22 @@ static void all_that_is_allocated_is_counted(void **state) {
             for (int e = 0; e <= GN_ENCODING_AUTO; e++)
                 for (int m = 0; m < GN_MOMENTS_COUNT; m++)
                     for (int k = 0; k < 6; k++) {
-                        struct gn_frame_opts opts = {.width_px = 64,
-                                                     .height_px = 64,
-                                                     .shadow.technique_given = true,
-                                                     .shadow.technique = (enum gn_technique)t,
-                                                     .shadow.encoding = (enum gn_encoding)e,
-                                                     .shadow.moments = (enum gn_moments)m,
-                                                     .shadow.map_px = sizes[k % 3],
-                                                     .shadow.planar_points =
-                                                         e == GN_ENCODING_MEAN ? 64 : 0,
-                                                     .shadow.maps_bytes = limits[i],
-                                                     .shadow.faces = k % 2 ? 1 + GN_CAST_MIDDLE : 0,
-                                                     .shadow.cascades = k / 3 ? 1 : 0};
-                        const bool filters = gn_technique_filters_map(opts.shadow.technique);
+                        struct gn_frame_opts opts = {
+                            .output.width_px = 64,
+                            .output.height_px = 64,
+                            .shadow.any = {.given = GN_LIGHT_GIVEN(technique) |
+                                                    (sizes[k % 3] ? GN_LIGHT_GIVEN(map_px) : 0) |
+                                                    GN_LIGHT_GIVEN(faces) |
+                                                    GN_LIGHT_GIVEN(map_format),
+                                           .technique = (enum gn_technique)t,
+                                           .map_px = sizes[k % 3],
+                                           .faces = k % 2 ? 1 + GN_CAST_MIDDLE : 0,
+                                           .map_format = GN_MAP_FORMAT((enum gn_encoding)e,
+                                                                       (enum gn_moments)m)},
+                            .shadow.planar_points = e == GN_ENCODING_MEAN ? 64 : 0,
+                            .shadow.maps_bytes = limits[i],
+                            .shadow.cascades = k / 3 ? 1 : 0};
+                        const bool filters = gn_technique_filters_map(opts.shadow.any.technique);
                         if (e == GN_ENCODING_STENCIL || (filters && e != GN_ENCODING_AUTO) ||
                             (!filters && m != GN_MOMENTS_NONE))
                             continue;

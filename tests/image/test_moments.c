@@ -65,14 +65,15 @@ enum { WIDTH = 960, HEIGHT = 720 };
 static float picture[4 * WIDTH * HEIGHT];
 
 static const struct gn_plan *draw(enum gn_technique technique, enum gn_moments moments) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH,
-                                       .height_px = HEIGHT,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = technique,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.moments = moments,
-                                       .shadow.map_px = 1024,
-                                       .debug.aov = GN_AOV_VISIBILITY};
+    const struct gn_frame_opts opts = {
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = technique,
+                       .map_px = 1024,
+                       .map_format = GN_MAP_FORMAT(GN_ENCODING_AUTO, moments)},
+        .debug.aov = GN_AOV_VISIBILITY};
     struct gn_err err = {0};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     if (!gn_gl_read_f32(stage.gl, picture, &err)) fail_msg("%s", err.text);
@@ -243,14 +244,14 @@ static void test_no_texel_is_anything_but_a_number(void **state) {
     help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     for (int n = 0; n < frames; n++) {
         const int light = n % 3;
-        struct gn_frame_opts opts = {.width_px = W,
-                                     .height_px = H,
-                                     .shadow.technique_given = true,
-                                     .shadow.technique = GN_TECHNIQUE_VSM + n / 3 % 3,
-                                     .shadow.encoding = GN_ENCODING_AUTO,
-                                     .debug.light = light,
-                                     .shadow.map_px = MAP,
-                                     .debug.aov = GN_AOV_VISIBILITY};
+        struct gn_frame_opts opts = {
+            .output.width_px = W,
+            .output.height_px = H,
+            .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                           .technique = GN_TECHNIQUE_VSM + n / 3 % 3,
+                           .map_px = MAP},
+            .debug.light = light,
+            .debug.aov = GN_AOV_VISIBILITY};
         struct gn_err err = {0};
         opts.view.orbit.yaw_rad = chance(-3, 3);
         opts.view.orbit.pitch_rad = chance(-0.2f, 1);
@@ -265,7 +266,7 @@ static void test_no_texel_is_anything_but_a_number(void **state) {
                 fail_msg("frame %d: a pixel is %g", n, (double)seen[4 * i]);
         for (uint32_t slot = 0; slot < plan->shadow_count; slot++)
             if (gn_moments[plan->shadows[slot].moments].file &&
-                opts.shadow.technique ==
+                opts.shadow.any.technique ==
                     GN_TECHNIQUE_EVSM) /* the others' integers are all numbers */
                 expect_numbers(slot, &plan->shadows[slot], bits);
     }
@@ -290,14 +291,15 @@ static void test_mipmaps_are_means_of_the_map(void **state) {
     (void)state;
     enum { SIDE = 256 };
     static float whole[4 * SIDE * SIDE], half[4 * SIDE * SIDE / 4];
-    const struct gn_frame_opts opts = {.width_px = 64,
-                                       .height_px = 48,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = GN_TECHNIQUE_VSM,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.moments = GN_MOMENTS_RGBA16F,
-                                       .shadow.map_px = SIDE,
-                                       .shadow.cascades = 1};
+    const struct gn_frame_opts opts = {
+        .output.width_px = 64,
+        .output.height_px = 48,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                GN_LIGHT_GIVEN(map_format),
+                       .technique = GN_TECHNIQUE_VSM,
+                       .map_px = SIDE,
+                       .map_format = GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA16F)},
+        .shadow.cascades = 1};
     help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     for (int frame = 0; frame < 3; frame++) {
         gn_pose_step(&stage.pose, (int64_t)frame * 500000000);
@@ -331,12 +333,12 @@ static void test_a_still_scene_is_filtered_once(void **state) {
     (void)state;
     help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
     for (int t = GN_TECHNIQUE_VSM; t <= GN_TECHNIQUE_MSM; t++) {
-        const struct gn_frame_opts opts = {.width_px = 64,
-                                           .height_px = 48,
-                                           .shadow.technique_given = true,
-                                           .shadow.technique = (enum gn_technique)t,
-                                           .shadow.encoding = GN_ENCODING_AUTO,
-                                           .shadow.map_px = 64};
+        const struct gn_frame_opts opts = {
+            .output.width_px = 64,
+            .output.height_px = 48,
+            .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                           .technique = (enum gn_technique)t,
+                           .map_px = 64}};
         const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
         assert_int_equal(plan->shadow_count, 3);
         const struct gn_gl_stats stats = gn_gl_stats(stage.gl);

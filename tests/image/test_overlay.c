@@ -28,10 +28,9 @@ static struct gn_scene *make_scene(void) {
 
 static void open_scene(struct gn_scene *(*make)(void), const char *backend, const char *without) {
     help_stage_open(&stage, make, backend, without, NULL);
-    opts = (struct gn_frame_opts){.width_px = WIDTH,
-                                  .height_px = HEIGHT,
-                                  .shadow.encoding = GN_ENCODING_AUTO,
-                                  .shadow.map_px = MAP,
+    opts = (struct gn_frame_opts){.output.width_px = WIDTH,
+                                  .output.height_px = HEIGHT,
+                                  .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = MAP},
                                   .shadow.cascades =
                                       1}; /* texel by texel an atlas is larger than a panel */
 }
@@ -100,7 +99,8 @@ static void test_panels_show_the_maps(void **state) {
     static const char *const labels[] = {"panel 0 Sun", "panel 1 Spot"};
     opts.debug.show_maps = true;
     for (int encoding = 0; encoding < GN_ENCODING_MASK; encoding++) {
-        opts.shadow.encoding = (enum gn_encoding)encoding;
+        GN_LIGHT_SET(&opts.shadow.any, map_format,
+                     GN_MAP_FORMAT((enum gn_encoding)encoding, GN_MOMENTS_NONE));
         const struct gn_plan *plan = draw(shown);
         assert_int_equal(plan->shadow_count, 2);
         for (uint32_t slot = 0; slot < 2; slot++) {

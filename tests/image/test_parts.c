@@ -177,7 +177,7 @@ static char *portrait_of(struct gn_show *show, int part) {
     if (row->add_screen) row->add_screen(of, &screen);
     const bool is_due = row->due_ns && row->due_ns(of) < INT64_MAX;
     json_object_set_new(all, "frame",
-                        json_pack("{s:f, s:i, s:i, s:b}", "dimmed", (double)frame.dimmed, "x",
+                        json_pack("{s:f, s:i, s:i, s:b}", "dimmed", (double)frame.cover.dimmed, "x",
                                   frame.view.shift_px[0], "y", frame.view.shift_px[1], "wants",
                                   wants && part != GN_PART_shift)); /* it may just have moved */
     json_object_set_new(all, "again", json_integer(screen.again_ns));

@@ -116,7 +116,7 @@ static void check_scene(int scene) {
     struct gn_picture truth;
     const char *path = make(scene, &truth);
     struct gn_penumbra_score hard = score_of(path, &truth, "hard", "r16f");
-    for (int f = 0; f < (gn_shot_full() ? 5 : 2); f++) {
+    for (int f = 0; f < (gn_shot_full() || scene == GN_PENUMBRA_SEAM ? 5 : 2); f++) {
         struct gn_penumbra_score pcss = score_of(path, &truth, "pcss", formats[f]);
         print_message("%-7s %-8s soft %.4f (hard %.4f, %.2f of it), rest %.4f\n",
                       gn_penumbra_names[scene], formats[f], pcss.soft, hard.soft,

@@ -35,7 +35,8 @@ static int close_gl(void **state) {
 
 #define PLANAR(...)                                                                                \
     (struct gn_frame_opts) {                                                                       \
-        .shadow.technique_given = true, .shadow.technique = GN_TECHNIQUE_PLANAR, __VA_ARGS__       \
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique), .technique = GN_TECHNIQUE_PLANAR},      \
+        __VA_ARGS__                                                                                \
     }
 
 /* What draws them; the tests go through both. */
@@ -48,9 +49,8 @@ static void shoot(const struct gn_scene *scene, int way, const struct gn_frame_o
     opts.shadow.planar_in_stencil = way == STENCIL;
     struct gn_err err = {0};
     struct gn_pose pose;
-    opts.width_px = WIDTH;
-    opts.height_px = HEIGHT;
-    opts.shadow.encoding = GN_ENCODING_AUTO;
+    opts.output.width_px = WIDTH;
+    opts.output.height_px = HEIGHT;
     gn_pose_init(&pose, scene, GN_POSE_NONE);
     if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
     struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
@@ -203,8 +203,9 @@ static void expect_two_shades(const char *nodes, int suns, int way) {
     float shades[2] = {0, 0};
     int counts[2] = {0, 0};
     assert_int_equal(scene->light_count, suns);
-    shoot(scene, way,
-          &PLANAR(.output_float = true, .shadow.strength_given = true, .shadow.strength = 0.7f));
+    struct gn_frame_opts opts = PLANAR(.output.floats = true);
+    GN_LIGHT_SET(&opts.shadow.any, strength, 0.7f);
+    shoot(scene, way, &opts);
     find_truth(&truth, scene);
     gn_mask_edges(&truth.mask, edges);
     for (int i = 0; i < PIXELS; i++) {
@@ -287,11 +288,12 @@ static void test_lights_at_once_are_the_sum_of_single_ones(void **state) {
     (void)state;
     static const char *const mixed[3] = {"planar", "pcf", "planar"};
     struct gn_scene *scene = make_three(gn_planar_turns[1].turn);
-    expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true));
-    expect_sum(scene, &PLANAR(.output_float = true, .exposure_given = true,
-                              .shadow.strength_given = true, .shadow.strength = 0.4f));
+    struct gn_frame_opts opts = PLANAR(.output.floats = true, .exposure_given = true);
+    expect_sum(scene, &opts);
+    GN_LIGHT_SET(&opts.shadow.any, strength, 0.4f);
+    expect_sum(scene, &opts);
     for (int i = 0; i < 3; i++) scene->lights[i].technique = mixed[i];
-    expect_sum(scene, &(struct gn_frame_opts){.output_float = true, .exposure_given = true});
+    expect_sum(scene, &(struct gn_frame_opts){.output.floats = true, .exposure_given = true});
     gn_scene_destroy(scene);
 }
 
@@ -303,8 +305,8 @@ static void test_both_ways_show_one_picture(void **state) {
     struct gn_scene *scene = make_three(gn_planar_turns[0].turn);
     int smoothed = 0;
     for (uint32_t msaa = 0; msaa <= 4; msaa += 4) {
-        const struct gn_frame_opts opts =
-            PLANAR(.output_float = true, .exposure_given = true, .exposure_ev = -3, .msaa = msaa);
+        const struct gn_frame_opts opts = PLANAR(.output.floats = true, .exposure_given = true,
+                                                 .exposure_ev = -3, .output.msaa = msaa);
         int apart = 0;
         shoot(scene, MASK, &opts);
         memcpy(mask, picture, sizeof mask);
@@ -360,11 +362,10 @@ static void test_backends_agree_on_the_stencil(void **state) {
 }
 
 static uint32_t draws_at(struct gn_frame *frame, struct gn_pose *pose, int64_t time_ns) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH,
-                                       .height_px = HEIGHT,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = GN_TECHNIQUE_PLANAR};
+    const struct gn_frame_opts opts = {
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique), .technique = GN_TECHNIQUE_PLANAR}};
     struct gn_err err = {0};
     gn_pose_step(pose, time_ns);
     const struct gn_plan *plan = gn_frame_build(frame, pose, &opts, NULL);

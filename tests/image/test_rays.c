@@ -10,6 +10,7 @@
 #include "image/shot.h"
 #include "truth/cast.h"
 #include "unit/check.h"
+#include "unit/gl_help.h"
 
 enum { WIDTH = 96, HEIGHT = 72 };
 
@@ -147,8 +148,87 @@ static void test_the_picture_has_the_visibility(void **state) {
     free(path);
 }
 
+/* ---- rays and picture have one camera ---- */
+
+static struct gn_scene *load_bars(void) {
+    struct gn_err err = {0};
+    char *path = gn_penumbra_write(GN_PENUMBRA_BARS, &err);
+    if (!path) fail_msg("%s", err.text);
+    struct gn_scene *scene = load(path);
+    free(path);
+    return scene;
+}
+
+/* How many pixels of the picture and of the rays are not at the same distance: outlines alone. */
+static int count_apart(struct help_stage *stage, const struct gn_frame_view_opts *view, int *seen) {
+    static float drawn[4 * WIDTH * HEIGHT];
+    const struct gn_frame_opts opts = {.output.width_px = WIDTH,
+                                       .output.height_px = HEIGHT,
+                                       .debug.aov = GN_AOV_DISTANCE,
+                                       .view = *view};
+    struct gn_err err = {0};
+    struct gn_raycast rays;
+    struct gn_framing framing;
+    struct gn_ray_eye eye;
+    int apart = 0;
+    help_stage_draw(stage, &opts, NULL);
+    if (!gn_gl_read_f32(stage->gl, drawn, &err)) fail_msg("%s", err.text);
+    gn_frame_camera(&stage->pose, view, (float)WIDTH / HEIGHT, &framing);
+    gn_ray_eye_look(&eye, &framing, WIDTH, HEIGHT);
+    gn_raycast_init(&rays, stage->scene, &stage->pose);
+    *seen = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        struct gn_ray_surface surface;
+        const bool hit = gn_raycast_eye(&rays, &eye, i % WIDTH, i / WIDTH, &surface);
+        const double distance_m = hit ? surface.distance_m : (double)INFINITY;
+        *seen += hit;
+        apart += hit ? fabs((double)drawn[4 * i] - distance_m) > .002 * distance_m
+                     : isfinite(drawn[4 * i]);
+    }
+    gn_raycast_finish(&rays);
+    return apart;
+}
+
+static void test_rays_and_picture_have_one_camera(void **state) {
+    (void)state;
+    const struct gn_orbit orbit = {.yaw_rad = .4f, .pitch_rad = .1f, .zoom = .8f};
+    const struct {
+        const char *what;
+        float xmag_m, ymag_m; /* 0: as the file has the camera */
+        struct gn_frame_view_opts view;
+    } rows[] = {
+        {"as in the file", 0, 0, {0}},
+        {"moved", 0, 0, {.orbit = orbit}},
+        {"on the turntable", 0, 0, {.turntable_rad = .7f}},
+        {"placed", 0, 0, {.framing = {.given = GN_FRAMING_DISTANCE, .distance_m = 9}}},
+        {"orthographic", 4, 4, {0}},
+        {"orthographic, wider than the picture", 12, 2, {0}},
+        {"orthographic, moved", 5, 4, {.orbit = orbit}},
+        {"a light's", 0, 0, {.light_plus_1 = 1}},
+        {"a light's, after the camera was moved", 0, 0, {.light_plus_1 = 1, .orbit = orbit}},
+        {"a light's on the turntable", 0, 0, {.light_plus_1 = 1, .turntable_rad = .7f}},
+    };
+    struct help_stage stage;
+    help_stage_open(&stage, load_bars, "egl", NULL, NULL);
+    struct gn_camera *camera = &stage.scene->cameras[0];
+    const struct gn_camera file = *camera;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        int seen = 0;
+        *camera = file;
+        camera->orthographic = rows[i].xmag_m > 0;
+        camera->xmag_m = rows[i].xmag_m;
+        camera->ymag_m = rows[i].ymag_m;
+        const int apart = count_apart(&stage, &rows[i].view, &seen);
+        print_message("%s: %d of %d pixels apart\n", rows[i].what, apart, seen);
+        assert_true(seen > WIDTH * HEIGHT / 10);
+        assert_true(apart <= WIDTH * HEIGHT / 100);
+    }
+    help_stage_close(&stage);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rays_and_picture_have_one_camera),
         cmocka_unit_test(test_visibility_is_the_oracles_to_the_bit),
         cmocka_unit_test(test_threads_change_no_bit),
         cmocka_unit_test(test_the_picture_has_the_visibility),

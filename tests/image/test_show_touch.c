@@ -31,11 +31,11 @@ static void run_for(struct gn_show *show, int64_t ns) {
 }
 
 static const struct gn_orbit *orbit_of(const struct gn_show *show) {
-    return &show->stage.frame_opts.view.orbit;
+    return &show->stage.shown.opts.view.orbit;
 }
 
 static float turntable_of(const struct gn_show *show) {
-    return show->stage.frame_opts.view.turntable_rad;
+    return show->stage.shown.opts.view.turntable_rad;
 }
 
 /* As events leave it, which are read in the step that follows. */

@@ -43,14 +43,13 @@ struct soft {
 /* gather: points a frame adds; 0: all. */
 static void begin(struct soft *s, const struct gn_scene *scene, uint32_t points, uint32_t gather) {
     struct gn_err err = {0};
-    s->opts = (struct gn_frame_opts){.width_px = WIDTH,
-                                     .height_px = HEIGHT,
-                                     .debug.aov = GN_AOV_VISIBILITY,
-                                     .shadow.encoding = GN_ENCODING_AUTO,
-                                     .shadow.technique_given = true,
-                                     .shadow.technique = GN_TECHNIQUE_PLANAR,
-                                     .shadow.planar_points = points,
-                                     .shadow.gather_points = gather};
+    s->opts = (struct gn_frame_opts){
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
+        .debug.aov = GN_AOV_VISIBILITY,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique), .technique = GN_TECHNIQUE_PLANAR},
+        .shadow.planar_points = points,
+        .shadow.gather_points = gather};
     gn_pose_init(&s->pose, scene, GN_POSE_DEFAULT);
     if (!gn_gl_load(gl, scene, &err)) fail_msg("%s", err.text);
     s->frame = gn_frame_create(scene, gn_gl_caps(gl));
@@ -233,7 +232,7 @@ static void test_both_planes_have_their_shadow_in_colour(void **state) {
     draw(&s);
     memcpy(seen, picture, sizeof seen);
     s.opts.debug.aov = GN_AOV_COLOR;
-    s.opts.output_float = true;
+    s.opts.output.floats = true;
     draw(&s);
     for (uint8_t plane = 1; plane <= 2; plane++) {
         int least = -1, most = -1; /* pixels */
@@ -277,7 +276,7 @@ static void test_lights_of_two_passes_reach_both_planes(void **state) {
     glm_vec3_copy(scene->lights[0].color, color);
     begin(&s, scene, 16, 0);
     s.opts.debug.aov = GN_AOV_COLOR;
-    s.opts.output_float = s.opts.exposure_given = true;
+    s.opts.output.floats = s.opts.exposure_given = true;
     for (int lit = 0; lit <= SUNS; lit++) {
         for (int i = 0; i < SUNS; i++) {
             scene->lights[i].radius = 0.2f;

@@ -51,13 +51,13 @@ static void read_picture(float *to) {
 }
 
 static const struct gn_plan *draw(enum gn_technique technique, enum gn_aov what, float *to) {
-    const struct gn_frame_opts opts = {.width_px = WIDTH_PX,
-                                       .height_px = HEIGHT_PX,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = technique,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.map_px = MAP_PX,
-                                       .debug.aov = what};
+    const struct gn_frame_opts opts = {
+        .output.width_px = WIDTH_PX,
+        .output.height_px = HEIGHT_PX,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = technique,
+                       .map_px = MAP_PX},
+        .debug.aov = what};
     const struct gn_plan *plan = help_stage_draw(&stage, &opts, NULL);
     read_picture(to);
     return plan;

@@ -39,12 +39,12 @@ static int close_all(void **state) {
 }
 
 static const struct gn_plan *draw(enum gn_technique technique, uint32_t map_px) {
-    const struct gn_frame_opts opts = {.width_px = 64,
-                                       .height_px = 48,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = technique,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.map_px = map_px};
+    const struct gn_frame_opts opts = {
+        .output.width_px = 64,
+        .output.height_px = 48,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = technique,
+                       .map_px = map_px}};
     return help_stage_draw(&stage, &opts, &warnings);
 }
 
@@ -231,15 +231,15 @@ enum { WIDTH = 64, HEIGHT = 48 };
 
 static void check_frame(enum gn_technique technique, int light) {
     static float picture[WIDTH * HEIGHT][4];
-    const struct gn_frame_opts opts = {.width_px = WIDTH,
-                                       .height_px = HEIGHT,
-                                       .shadow.technique_given = true,
-                                       .shadow.technique = technique,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.map_px = 48,
-                                       .debug.aov = GN_AOV_VISIBILITY,
-                                       .debug.light = light,
-                                       .view.turntable_rad = (float)(6.28 * dice())};
+    const struct gn_frame_opts opts = {
+        .output.width_px = WIDTH,
+        .output.height_px = HEIGHT,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px),
+                       .technique = technique,
+                       .map_px = 48},
+        .debug.aov = GN_AOV_VISIBILITY,
+        .debug.light = light,
+        .view.turntable_rad = (float)(6.28 * dice())};
     gn_pose_step(&stage.pose, (int64_t)(dice() * 6e9));
     help_stage_draw(&stage, &opts, &warnings);
     if (!gn_gl_read_f32(stage.gl, picture[0], &err)) fail_msg("%s", err.text);

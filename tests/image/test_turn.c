@@ -41,13 +41,13 @@ static int close_all(void **state) {
 
 static void draw(unsigned turn_deg, bool overlays, uint8_t *out) {
     const bool on_side = turn_deg % 180 != 0;
-    const struct gn_frame_opts opts = {.width_px = on_side ? HEIGHT : WIDTH,
-                                       .height_px = on_side ? WIDTH : HEIGHT,
-                                       .turn_deg = turn_deg,
-                                       .shadow.encoding = GN_ENCODING_AUTO,
-                                       .shadow.map_px = 256,
-                                       .debug.show_lights = overlays,
-                                       .debug.show_maps = overlays};
+    const struct gn_frame_opts opts = {
+        .output.width_px = on_side ? HEIGHT : WIDTH,
+        .output.height_px = on_side ? WIDTH : HEIGHT,
+        .output.turn_deg = turn_deg,
+        .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 256},
+        .debug.show_lights = overlays,
+        .debug.show_maps = overlays};
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
     assert_null(gn_plan_check(plan));
     if (!gn_gl_prepare(gl, plan, &err) || !gn_gl_run(gl, plan, NULL, &err) ||

@@ -93,8 +93,9 @@ static void draw(struct kiosk *k) {
     while (!d->screen.may_draw) dispatch(k);
     const struct gn_gl_window target = {d->screen.width_px, d->screen.height_px, d->screen.srgb};
     assert_true(gn_display_begin(d, gn_clock_monotonic_ns(), &err));
-    const struct gn_frame_opts opts = {
-        .width_px = target.width_px, .height_px = target.height_px, .unencoded = !target.srgb};
+    const struct gn_frame_opts opts = {.output.width_px = target.width_px,
+                                       .output.height_px = target.height_px,
+                                       .output.unencoded = !target.srgb};
     gn_gl_set_window(k->gl, &target);
     if (d->screen.black) {
         gn_gl_black(k->gl);

@@ -13,7 +13,7 @@ void gn_plan_begin(struct gn_plan_fixture *f, uint32_t caps) {
     gn_pose_step(&f->pose, 0);
     struct gn_caps all = {.has = caps, .max_texture_px = 4096, .max_texture_units = 16};
     f->frame = gn_frame_create(f->scene, &all);
-    f->opts = (struct gn_frame_opts){.shadow.encoding = GN_ENCODING_AUTO};
+    f->opts = (struct gn_frame_opts){0};
 }
 
 void gn_plan_end(struct gn_plan_fixture *f) {

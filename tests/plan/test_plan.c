@@ -20,8 +20,7 @@ static void test_hard_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_HARD;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_HARD);
     gn_plan_expect(gn_plan_make(&f), "hard");
     gn_plan_end(&f);
 }
@@ -30,8 +29,7 @@ static void test_planar_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PLANAR);
     gn_plan_expect(gn_plan_make(&f), "planar");
     gn_plan_end(&f);
 }
@@ -41,8 +39,7 @@ static void test_plan_of_a_soft_planar_light(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PLANAR);
     f.opts.shadow.planar_points = 64;
     f.opts.shadow.gather_points = 16;
     f.scene->lights[1].radius = 0.3f;
@@ -67,8 +64,8 @@ static void test_planar_plan_in_stencil(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = f.opts.shadow.planar_in_stencil = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.planar_in_stencil = true;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PLANAR);
     gn_plan_expect(gn_plan_make(&f), "stencil");
     gn_plan_end(&f);
 }
@@ -102,8 +99,8 @@ static void test_a_transparent_plane_has_a_mask(void **state) {
     for (uint32_t i = 0; i < f.scene->item_count; i++)
         if (f.scene->items[i].plane)
             f.scene->materials[f.scene->items[i].material].alpha = GN_ALPHA_BLEND;
-    f.opts.shadow.technique_given = f.opts.shadow.planar_in_stencil = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.planar_in_stencil = true;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PLANAR);
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     assert_false(plan->stencil);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
@@ -140,8 +137,7 @@ static void test_planar_needs_a_plane(void **state) {
     struct gn_warnings warnings = {0};
     gn_plan_begin(&f, GN_EVERY_CAP);
     for (uint32_t i = 0; i < f.scene->item_count; i++) f.scene->items[i].plane = false;
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PLANAR);
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     assert_int_equal(plan->shadow_count, 0);
     assert_int_equal(warnings.count, 3); /* each light */
@@ -164,7 +160,7 @@ static void test_plan_without_float_and_srgb_targets(void **state) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, 1u << GN_CAP_R32UI);
     struct gn_warnings warnings = {0};
-    f.opts.shadow.encoding = GN_ENCODING_R16F;
+    GN_LIGHT_SET(&f.opts.shadow.any, map_format, GN_MAP_FORMAT(GN_ENCODING_R16F, GN_MOMENTS_NONE));
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     assert_int_equal(plan->output, GN_OUTPUT_LINEAR8);
     assert_true(plan->encode_srgb);
@@ -225,9 +221,8 @@ static void corner_in_texels(const struct gn_shadow_view *view, double out[2]) {
 static void expect_whole_texels(enum gn_technique technique) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.width_px = 100; /* a narrow view limits the window */
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = technique;
+    f.opts.output.width_px = 100; /* a narrow view limits the window */
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, technique);
     struct gn_shadow_view still = gn_plan_make(&f)->shadows[0];
     int moved = 0;
     for (int step = 1; step <= 40; step++) {
@@ -396,8 +391,8 @@ static void test_check_finds_what_is_broken(void **state) {
     plan = *gn_plan_make(&f);
     plan.passes[4].copy.count = 0;
     assert_non_null(gn_plan_check(&plan));
-    f.opts.shadow.technique_given = f.opts.shadow.planar_in_stencil = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PLANAR;
+    f.opts.shadow.planar_in_stencil = true;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PLANAR);
     plan = *gn_plan_make(&f);
     assert_null(gn_plan_check(&plan));
     plan.stencil = false;
@@ -435,7 +430,7 @@ static void test_caption_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.captions = &captions;
+    f.opts.cover.captions = &captions;
     gn_plan_expect(gn_plan_make(&f), "caption");
     gn_plan_end(&f);
 }
@@ -449,12 +444,12 @@ static void test_captions_that_are_not_seen(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     const uint32_t passes = gn_plan_make(&f)->pass_count;
     run.alpha[GN_CAPTION_ERROR] = 0;
-    f.opts.captions = &run;
+    f.opts.cover.captions = &run;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_int_equal(plan->pass_count, passes + 1);
     assert_int_equal(plan->draws[plan->draw_count - 1].instance_count, 2);
     assert_int_equal(plan->passes[passes].rect.width, 200);
-    f.opts.turn_deg = 90;
+    f.opts.output.turn_deg = 90;
     assert_int_equal(gn_plan_make(&f)->pass_count, passes);
     run.width_px = 720, run.height_px = 1280;
     plan = gn_plan_make(&f);

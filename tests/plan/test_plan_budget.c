@@ -24,9 +24,8 @@ static struct hashes hashes_of(const struct gn_plan *plan) {
 
 static void begin(struct gn_plan_fixture *f, enum gn_technique technique, uint64_t texels) {
     gn_plan_begin(f, GN_EVERY_CAP);
-    f->opts.shadow.technique_given = true;
-    f->opts.shadow.technique = technique;
-    f->opts.shadow.map_px = 128;
+    GN_LIGHT_SET(&f->opts.shadow.any, technique, technique);
+    GN_LIGHT_SET(&f->opts.shadow.any, map_px, 128);
     f->opts.shadow.cascades = 1; /* else as many as suit the pose that a builder sees first */
     f->opts.shadow.filter_texels = texels;
 }
@@ -112,11 +111,12 @@ static void test_a_switch_waits_for_nothing(void **state) {
     bool is_behind;
     begin(&f, GN_TECHNIQUE_VSM, 1);
     at(&f, 0, &is_behind);
-    f.opts.shadow.technique = GN_TECHNIQUE_MSM;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_MSM);
     const struct hashes now = at(&f, 1, &is_behind), fresh = fresh_at(GN_TECHNIQUE_MSM, 1);
     assert_false(is_behind);
     assert_memory_equal(&now, &fresh, sizeof now);
-    f.opts.shadow.technique = GN_TECHNIQUE_PCF; /* reads the map itself: always of today */
+    GN_LIGHT_SET(&f.opts.shadow.any, technique,
+                 GN_TECHNIQUE_PCF); /* reads the map itself: always of today */
     gn_pose_step(&f.pose, 20 * FRAME_NS);
     assert_false(gn_plan_make(&f)->is_behind);
     gn_plan_end(&f);

@@ -16,7 +16,7 @@ static void begin(struct gn_plan_fixture *f, struct gn_scene *scene, int32_t max
     gn_pose_init(&f->pose, f->scene, GN_POSE_DEFAULT);
     gn_pose_step(&f->pose, 0);
     f->frame = gn_frame_create(f->scene, &caps);
-    f->opts = (struct gn_frame_opts){.shadow.encoding = GN_ENCODING_AUTO};
+    f->opts = (struct gn_frame_opts){0};
 }
 
 static const struct gn_shadow_view *view_of(struct gn_plan_fixture *f) {
@@ -123,7 +123,7 @@ static void test_every_camera_has_a_plan(void **state) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make(), 4096);
             f.opts.view.camera = camera;
-            f.opts.turn_deg = turn;
+            f.opts.output.turn_deg = turn;
             const struct gn_shadow_view *view = view_of(&f);
             const bool some = camera == GN_FIELD_STANDING || camera == GN_FIELD_INSIDE;
             assert_int_equal(view->map.cascade_count, some ? 4 : 0);
@@ -137,7 +137,7 @@ static void test_an_atlas_is_no_larger_than_a_texture(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 2048);
-    f.opts.shadow.map_px = 2048;
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 2048);
     const struct gn_shadow_view *view = view_of(&f);
     assert_int_equal(view->map.width_px, 2048);
     assert_int_equal(view->map.height_px, 2048);
@@ -170,18 +170,18 @@ static void test_so_many_as_are_set(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
-    f.opts.width_px = 64; /* one would be enough */
-    f.opts.height_px = 36;
+    f.opts.output.width_px = 64; /* one would be enough */
+    f.opts.output.height_px = 36;
     for (uint32_t count = 1; count <= 4; count++) {
-        f.opts.shadow.cascade_count = count;
+        GN_LIGHT_SET(&f.opts.shadow.any, cascades, count);
         assert_int_equal(view_of(&f)->map.cascade_count, count == 1 ? 0 : count);
-        f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
-            .light = 0, .given = GN_LIGHT_CASCADES, .cascades = 5 - count};
+        f.opts.shadow.lights[0] = (struct gn_light_opts){
+            .light = 0, .given = GN_LIGHT_GIVEN(cascades), .cascades = 5 - count};
         f.opts.shadow.light_count = 1;
         assert_int_equal(view_of(&f)->map.cascade_count, count == 4 ? 0 : 5 - count);
         f.opts.shadow.light_count = 0;
     }
-    f.opts.shadow.map_px = 32; /* no room for their gutters */
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 32); /* no room for their gutters */
     assert_int_equal(view_of(&f)->map.cascade_count, 0);
     gn_plan_end(&f);
 }
@@ -192,8 +192,8 @@ static void test_small_pictures_need_fewer(void **state) {
     begin(&f, gn_field_scene_make(), 4096);
     uint32_t last = 4;
     for (uint32_t width_px = 1280; width_px >= 4; width_px /= 2) {
-        f.opts.width_px = width_px;
-        f.opts.height_px = width_px * 9 / 16;
+        f.opts.output.width_px = width_px;
+        f.opts.output.height_px = width_px * 9 / 16;
         const uint32_t count = view_of(&f)->map.tile_count;
         assert_true(count <= last);
         last = count;
@@ -210,8 +210,8 @@ static void test_a_camera_that_flies_has_as_many_all_along(void **state) {
         for (int i = 0; i < 3; i++) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make_flown(30.0f), 4096);
-            f.opts.width_px = width_px;
-            f.opts.height_px = width_px * 9 / 16;
+            f.opts.output.width_px = width_px;
+            f.opts.output.height_px = width_px * 9 / 16;
             gn_pose_step(&f.pose, (int64_t)i * 1999000000);
             counts[i] = view_of(&f)->map.tile_count;
             gn_plan_end(&f);
@@ -230,8 +230,8 @@ static void test_a_clip_over_others_flies_as_well(void **state) {
         for (int i = 0; i < 2; i++) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make_flown(30.0f), 4096);
-            f.opts.width_px = width_px;
-            f.opts.height_px = width_px * 9 / 16;
+            f.opts.output.width_px = width_px;
+            f.opts.output.height_px = width_px * 9 / 16;
             if (i == 1) {
                 f.scene->nodes[f.scene->cameras[0].node].translation[1] = 30.0f;
                 gn_pose_choose(&f.pose, GN_POSE_NONE);
@@ -256,8 +256,8 @@ static void test_more_that_help_little_are_not_taken(void **state) {
         struct gn_scene *scene = gn_scene_load("assets/sundial.glb", NULL, NULL, &err);
         if (!scene) fail_msg("%s", err.text);
         begin(&f, scene, 4096);
-        f.opts.width_px = widths_px[i];
-        f.opts.height_px = widths_px[i] * 9 / 16;
+        f.opts.output.width_px = widths_px[i];
+        f.opts.output.height_px = widths_px[i] * 9 / 16;
         assert_int_equal(view_of(&f)->map.cascade_count, 2);
         gn_plan_end(&f);
     }
@@ -274,10 +274,9 @@ static void test_all_techniques_agree_on_it(void **state) {
         for (int i = 0; i < 5; i++) {
             struct gn_plan_fixture f;
             begin(&f, gn_field_scene_make(), 4096);
-            f.opts.shadow.technique_given = true;
-            f.opts.shadow.technique = techniques[i];
-            f.opts.width_px = 2 * height_px;
-            f.opts.height_px = height_px;
+            GN_LIGHT_SET(&f.opts.shadow.any, technique, techniques[i]);
+            f.opts.output.width_px = 2 * height_px;
+            f.opts.output.height_px = height_px;
             counts[i] = view_of(&f)->map.cascade_count;
             gn_plan_end(&f);
         }
@@ -292,7 +291,7 @@ static void test_a_larger_map_is_never_coarser(void **state) {
     begin(&f, gn_field_scene_make(), 4096);
     float last = INFINITY;
     for (uint32_t px = 256; px <= 4096; px *= 2) {
-        f.opts.shadow.map_px = px;
+        GN_LIGHT_SET(&f.opts.shadow.any, map_px, px);
         const struct gn_shadow_view *view = view_of(&f);
         assert_true(view->map.cascade_count > 0 && view->cascades[0].texel <= last);
         last = view->cascades[0].texel;
@@ -307,8 +306,7 @@ static void test_blurs_are_as_wide_on_both_sides_of_a_split(void **state) {
         struct gn_plan_fixture f;
         begin(&f, gn_field_scene_make(), 4096);
         f.scene->lights[0].radius = radius;
-        f.opts.shadow.technique_given = true;
-        f.opts.shadow.technique = GN_TECHNIQUE_EVSM;
+        GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_EVSM);
         const struct gn_shadow_view *view = view_of(&f);
         assert_int_equal(view->map.cascade_count, 4);
         const float most_m = GN_BLUR_MOST_PX * view->cascades[0].texel;
@@ -364,8 +362,7 @@ static void test_penumbrae_are_bound_alike_on_both_sides_of_a_split(void **state
     (void)state;
     struct gn_plan_fixture f;
     begin(&f, gn_field_scene_make(), 4096);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PCSS;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCSS);
     assert_true(view_of(&f)->penumbra.growth >= 1e9f); /* the sun's have room */
     f.scene->lights[0].radius = 0.5f;
     const struct gn_shadow_view *view = view_of(&f);
@@ -390,8 +387,7 @@ static void test_they_end_before_tiles_are_too_small(void **state) {
             f.scene->lights = suns;
             f.pose.lights = suns;
             f.scene->light_count = GN_ALL_SHADOWS_MAX;
-            f.opts.shadow.technique_given = true;
-            f.opts.shadow.technique = (enum gn_technique)t;
+            GN_LIGHT_SET(&f.opts.shadow.any, technique, (enum gn_technique)t);
             f.opts.shadow.maps_bytes = mb << 20;
             const struct gn_plan *plan = gn_plan_make(&f);
             const char *broken = gn_plan_check(plan);

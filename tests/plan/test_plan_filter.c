@@ -7,8 +7,7 @@
 #include "unit/check.h"
 
 static void choose(struct gn_plan_fixture *f, enum gn_technique technique) {
-    f->opts.shadow.technique_given = true;
-    f->opts.shadow.technique = technique;
+    GN_LIGHT_SET(&f->opts.shadow.any, technique, technique);
 }
 
 static void test_msm_plan(void **state) {
@@ -35,7 +34,7 @@ static void test_cone_maps_have_even_sizes(void **state) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
     choose(&f, GN_TECHNIQUE_CONE);
-    f.opts.shadow.map_px = 333;
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 333);
     assert_int_equal(gn_plan_make(&f)->shadows[0].map.tile_px, 332);
     f.opts.shadow.maps_bytes = 1 << 18;
     const struct gn_plan *plan = gn_plan_make(&f);
@@ -126,7 +125,8 @@ static void test_filters_change_with_their_map_and_technique_alone(void **state)
     const uint64_t before = hash_of(gn_plan_make(&f));
     assert_int_equal(hash_of(gn_plan_make(&f)), before);
     choose(&f, GN_TECHNIQUE_MSM); /* it may be kept in the same kind of texture */
-    f.opts.shadow.moments = GN_MOMENTS_RGBA32F_BITS;
+    GN_LIGHT_SET(&f.opts.shadow.any, map_format,
+                 GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA32F_BITS));
     assert_true(hash_of(gn_plan_make(&f)) != before);
     choose(&f, GN_TECHNIQUE_EVSM);
     assert_int_equal(hash_of(gn_plan_make(&f)), before);
@@ -140,7 +140,7 @@ static enum gn_moments moments_with(uint32_t caps, enum gn_technique technique,
     struct gn_plan_fixture f;
     gn_plan_begin(&f, caps);
     choose(&f, technique);
-    f.opts.shadow.moments = wanted;
+    GN_LIGHT_SET(&f.opts.shadow.any, map_format, GN_MAP_FORMAT(GN_ENCODING_AUTO, wanted));
     struct gn_warnings warnings = {0};
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     const enum gn_moments moments = plan->shadows[0].moments;

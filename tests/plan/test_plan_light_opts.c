@@ -17,20 +17,19 @@ static void test_options_of_a_light_beat_those_of_all(void **state) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
     f.scene->lights[1].technique = "none";
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
-    f.opts.shadow.map_px = 512;
-    f.opts.shadow.strength_given = true;
-    f.opts.shadow.strength = 1.0f;
-    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
-        .light = 1,
-        .given = GN_LIGHT_TECHNIQUE | GN_LIGHT_MAP_PX | GN_LIGHT_FORMAT | GN_LIGHT_STRENGTH,
-        .technique = GN_TECHNIQUE_HARD,
-        .map_px = 128,
-        .encoding = GN_ENCODING_R32UI,
-        .strength = 0.25f};
-    f.opts.shadow.lights[1] = (struct gn_frame_light_opts){
-        .light = 2, .given = GN_LIGHT_TECHNIQUE, .technique = GN_TECHNIQUE_NONE};
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCF);
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 512);
+    GN_LIGHT_SET(&f.opts.shadow.any, strength, 1.0f);
+    f.opts.shadow.lights[0] =
+        (struct gn_light_opts){.light = 1,
+                               .given = GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px) |
+                                        GN_LIGHT_GIVEN(map_format) | GN_LIGHT_GIVEN(strength),
+                               .technique = GN_TECHNIQUE_HARD,
+                               .map_px = 128,
+                               .map_format = GN_MAP_FORMAT(GN_ENCODING_R32UI, GN_MOMENTS_NONE),
+                               .strength = 0.25f};
+    f.opts.shadow.lights[1] = (struct gn_light_opts){
+        .light = 2, .given = GN_LIGHT_GIVEN(technique), .technique = GN_TECHNIQUE_NONE};
     f.opts.shadow.light_count = 2;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_int_equal(plan->shadow_count, 2);
@@ -54,9 +53,9 @@ static void test_a_light_has_the_colour_that_is_set_or_is_off(void **state) {
     const struct gn_plan *plan = gn_plan_make(&f);
     const float exposure = plan->exposure;
     const uint32_t lights = plan->light_count;
-    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
-        .light = 1, .given = GN_LIGHT_COLOR, .color = {3e4f, 2e4f, 1e4f}};
-    f.opts.shadow.lights[1] = (struct gn_frame_light_opts){.light = 0, .given = GN_LIGHT_OFF};
+    f.opts.shadow.lights[0] = (struct gn_light_opts){
+        .light = 1, .given = GN_LIGHT_GIVEN(color), .color = {3e4f, 2e4f, 1e4f}};
+    f.opts.shadow.lights[1] = (struct gn_light_opts){.light = 0, .given = GN_LIGHT_GIVEN(on)};
     f.opts.shadow.light_count = 2;
     plan = gn_plan_make(&f);
     assert_int_equal(plan->light_count, lights - 1);
@@ -88,9 +87,9 @@ static void test_faces_of_all_casters_are_as_set(void **state) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
     const uint64_t hash = view_of(gn_plan_make(&f), 1)->raster.tiles[0].content_hash;
-    f.opts.shadow.faces = 1 + GN_CAST_BACK;
-    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
-        .light = 1, .given = GN_LIGHT_FACES, .faces = 1 + GN_CAST_FRONT};
+    GN_LIGHT_SET(&f.opts.shadow.any, faces, 1 + GN_CAST_BACK);
+    f.opts.shadow.lights[0] = (struct gn_light_opts){
+        .light = 1, .given = GN_LIGHT_GIVEN(faces), .faces = 1 + GN_CAST_FRONT};
     f.opts.shadow.light_count = 1;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_int_equal(cull_of(plan, 0), GN_CULL_FRONT);
@@ -109,15 +108,14 @@ static void test_the_bias_is_as_set(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCF);
     const float own = gn_techniques[GN_TECHNIQUE_PCF].bias_texels;
     const struct gn_shadow_lookup before[] = {view_of(gn_plan_make(&f), 0)->lookup,
                                               view_of(gn_plan_make(&f), 1)->lookup};
     assert_true(before[0].bias_texels == own && before[0].margin_px == 2);
-    f.opts.shadow.bias_given = true;
-    f.opts.shadow.lights[0] =
-        (struct gn_frame_light_opts){.light = 1, .given = GN_LIGHT_BIAS, .bias_texels = own + 1.5f};
+    GN_LIGHT_SET(&f.opts.shadow.any, bias_texels, 0);
+    f.opts.shadow.lights[0] = (struct gn_light_opts){
+        .light = 1, .given = GN_LIGHT_GIVEN(bias_texels), .bias_texels = own + 1.5f};
     f.opts.shadow.light_count = 1;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_true(view_of(plan, 0)->lookup.normal_offset == 0.0f);
@@ -146,10 +144,9 @@ static void test_the_radius_of_a_filter_is_as_set(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_DISK;
-    f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
-        .light = 1, .given = GN_LIGHT_FILTER, .filter_radius_px = 5.5f};
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_DISK);
+    f.opts.shadow.lights[0] = (struct gn_light_opts){
+        .light = 1, .given = GN_LIGHT_GIVEN(filter_radius_px), .filter_radius_px = 5.5f};
     f.opts.shadow.light_count = 1;
     const struct gn_plan *plan = gn_plan_make(&f);
     const float(*c)[4] = (const float(*)[4])plan->passes[plan->pass_count - 1].constants;
@@ -161,19 +158,19 @@ static void test_the_radius_of_a_filter_is_as_set(void **state) {
     assert_false(lit_of(plan)->lights[0].filter_set);
     assert_true(lit_of(plan)->lights[1].filter_set);
     f.opts.shadow.lights[0].filter_radius_px = 0.0f;
-    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
-    f.opts.shadow.filter_radius_px = 30.0f; /* more than its taps can have */
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCF);
+    GN_LIGHT_SET(&f.opts.shadow.any, filter_radius_px, 30.0f); /* more than its taps can have */
     plan = gn_plan_make(&f);
     const struct gn_shadow_lookup *wide = &view_of(plan, 0)->lookup;
     assert_true(wide->filter_radius_px == 2.0f && wide->margin_px == 2);
     assert_true(fabsf(wide->bias_texels - 1.2f) < 1e-6f);
     assert_false(lit_of(plan)->lights[1].filter_set);
-    f.opts.shadow.technique = GN_TECHNIQUE_PCF5; /* it has one radius */
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCF5); /* it has one radius */
     plan = gn_plan_make(&f);
     assert_true(view_of(plan, 0)->lookup.filter_radius_px == 0.0f);
     assert_false(lit_of(plan)->lights[0].filter_set);
-    f.opts.shadow.technique = GN_TECHNIQUE_VSM;
-    f.opts.shadow.filter_radius_px = 3.0f;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_VSM);
+    GN_LIGHT_SET(&f.opts.shadow.any, filter_radius_px, 3.0f);
     plan = gn_plan_make(&f);
     assert_true(view_of(plan, 0)->penumbra.blur_px == 3.0f);
     assert_false(lit_of(plan)->lights[0].filter_set); /* the map is blurred */
@@ -185,27 +182,26 @@ static void test_lights_have_taps_of_their_own(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_POISSON;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_POISSON);
     f.opts.shadow.lights[0] =
-        (struct gn_frame_light_opts){.light = 1, .given = GN_LIGHT_TAPS, .taps = 20};
+        (struct gn_light_opts){.light = 1, .given = GN_LIGHT_GIVEN(taps), .taps = 20};
     f.opts.shadow.light_count = 1;
     static const struct {
         uint32_t asked;
         uint8_t disk, cone;
     } rows[] = {{0, 16, 12}, {4, 4, 8}, {12, 12, 12}, {64, 64, 16}};
     for (int i = 0; i < 4; i++) {
-        f.opts.shadow.taps = rows[i].asked;
-        f.opts.shadow.technique = GN_TECHNIQUE_POISSON;
+        GN_LIGHT_SET(&f.opts.shadow.any, taps, rows[i].asked);
+        GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_POISSON);
         const struct gn_plan *plan = gn_plan_make(&f);
         assert_int_equal(lit_of(plan)->lights[0].taps, rows[i].disk);
         assert_int_equal(lit_of(plan)->lights[1].taps, 20);
-        f.opts.shadow.technique = GN_TECHNIQUE_CONE;
+        GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_CONE);
         plan = gn_plan_make(&f);
         assert_int_equal(lit_of(plan)->lights[0].taps, rows[i].cone);
         assert_int_equal(lit_of(plan)->lights[1].taps, 16);
     }
-    f.opts.shadow.technique = GN_TECHNIQUE_PCF;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCF);
     assert_int_equal(lit_of(gn_plan_make(&f))->lights[1].taps, 0);
     gn_plan_end(&f);
 }
@@ -217,8 +213,8 @@ static void test_a_light_can_be_looked_from(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     for (int wide = 0; wide < 2; wide++) {
         f.opts.view.light_plus_1 = 1;
-        f.opts.width_px = wide ? 640 : 200;
-        f.opts.height_px = wide ? 200 : 640;
+        f.opts.output.width_px = wide ? 640 : 200;
+        f.opts.output.height_px = wide ? 200 : 640;
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
         mat4 clip;
@@ -254,10 +250,8 @@ static void test_highlights_in_shadow_have_a_feature(void **state) {
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
     for (int given = 0; given < 2; given++) {
-        f.opts.shadow.strength_given = true;
-        f.opts.shadow.strength = 0.75f;
-        f.opts.shadow.specular_given = given;
-        f.opts.shadow.specular = 0.2f;
+        GN_LIGHT_SET(&f.opts.shadow.any, strength, 0.75f);
+        if (given) GN_LIGHT_SET(&f.opts.shadow.any, specular, 0.2f);
         const struct gn_plan *plan = gn_plan_make(&f);
         const uint64_t both = GN_FEATURE(SPECULAR) | GN_FEATURE(SHADOW_SPECULAR);
         int count = 0;
@@ -293,9 +287,8 @@ static void test_maps_are_cleared_to_the_far_end_but_in_a_lesson(void **state) {
     float far_code, near_code;
     uint64_t far_hash, near_hash;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.encoding = GN_ENCODING_R16F;
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_HARD;
+    GN_LIGHT_SET(&f.opts.shadow.any, map_format, GN_MAP_FORMAT(GN_ENCODING_R16F, GN_MOMENTS_NONE));
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_HARD);
     clear_of(&f, false, &far_code, &far_hash);
     clear_of(&f, true, &near_code, &near_hash);
     assert_true(far_code == 1.0f);

@@ -24,9 +24,8 @@ static void test_maps_are_reduced_until_they_fit_the_limit(void **state) {
         struct gn_light lights[13];
         gn_plan_begin(&f, GN_EVERY_CAP);
         gn_plan_add_lights(&f, lights);
-        f.opts.shadow.technique_given = true;
-        f.opts.shadow.technique = (enum gn_technique)t;
-        f.opts.shadow.map_px = 1024;
+        GN_LIGHT_SET(&f.opts.shadow.any, technique, (enum gn_technique)t);
+        GN_LIGHT_SET(&f.opts.shadow.any, map_px, 1024);
         const uint64_t asked = gn_plan_map_bytes(gn_plan_make(&f));
         for (uint64_t mb = 1; mb <= 64; mb *= 4) {
             struct gn_warnings warnings = {0};
@@ -61,7 +60,7 @@ static void test_a_map_that_is_too_large_is_made_smaller_and_said_so(void **stat
     const struct gn_caps caps = {.has = GN_EVERY_CAP, .max_texture_px = 3000};
     gn_frame_destroy(f.frame);
     f.frame = gn_frame_create(f.scene, &caps);
-    f.opts.shadow.map_px = 2048;
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 2048);
     f.opts.shadow.cascades = 1;
     const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
     for (uint32_t i = 0; i < plan->shadow_count; i++)
@@ -108,8 +107,7 @@ static void test_constants_are_those_of_the_view(void **state) {
     for (uint32_t cascades = 1; cascades <= GN_CASCADES_MAX; cascades += 2) {
         struct gn_plan_fixture f;
         gn_plan_begin(&f, GN_EVERY_CAP);
-        f.opts.shadow.technique_given = true;
-        f.opts.shadow.technique = GN_TECHNIQUE_PCSS;
+        GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCSS);
         f.opts.shadow.cascades = cascades;
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
@@ -156,10 +154,9 @@ static void test_tables_plan(void **state) {
     (void)state;
     struct gn_plan_fixture f;
     gn_plan_begin(&f, GN_EVERY_CAP);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_SMSM;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_SMSM);
     gn_plan_expect(gn_plan_make(&f), "tables");
-    f.opts.shadow.map_px = 100; /* no whole number of blocks */
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 100); /* no whole number of blocks */
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_null(gn_plan_check(plan));
     for (uint32_t i = 0; i < plan->pass_count; i++) {
@@ -236,8 +233,7 @@ static void test_a_warning_is_given_once(void **state) {
     assert_non_null(strstr(first.text[0], "'Bulb 0' is left out: at most 32 lights"));
     gn_frame_build(f.frame, &f.pose, &f.opts, &second);
     assert_int_equal(second.count, 0);
-    f.opts.shadow.technique_given = true;
-    f.opts.shadow.technique = GN_TECHNIQUE_HARD;
+    GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_HARD);
     gn_frame_build(f.frame, &f.pose, &f.opts, &third);
     assert_int_equal(third.count, first.count);
     gn_plan_end(&f);
@@ -374,7 +370,7 @@ static void test_a_slide_may_have_the_shape_of_its_picture(void **state) {
     float square[3][4], shaped[3][4];
     const struct gn_plan *plan = gn_plan_make(&f);
     memcpy(square, plan->passes[plan->pass_count - 1].constants[PASS_SLIDES], sizeof square);
-    f.opts.shadow.slide_as_picture = true;
+    GN_LIGHT_SET(&f.opts.shadow.any, slide_as_picture, true);
     plan = gn_plan_make(&f);
     memcpy(shaped, plan->passes[plan->pass_count - 1].constants[PASS_SLIDES], sizeof shaped);
     assert_memory_equal(shaped[SLIDE_U], square[SLIDE_U], sizeof square[0]);
@@ -403,10 +399,10 @@ static void test_a_slide_may_have_a_far_plane(void **state) {
         gn_plan_begin(&f, GN_EVERY_CAP);
         make_spots(&f, lights, 1);
         lights[0].slide_far_m = rows[i].scene_m;
-        f.opts.shadow.slide_far_given = rows[i].all_m >= 0;
-        f.opts.shadow.slide_far_m = rows[i].all_m;
-        f.opts.shadow.lights[0] = (struct gn_frame_light_opts){
-            .given = rows[i].own_m >= 0 ? GN_LIGHT_SLIDE_FAR : 0, .slide_far_m = rows[i].own_m};
+        if (rows[i].all_m >= 0) GN_LIGHT_SET(&f.opts.shadow.any, slide_far_m, rows[i].all_m);
+        f.opts.shadow.lights[0] =
+            (struct gn_light_opts){.given = rows[i].own_m >= 0 ? GN_LIGHT_GIVEN(slide_far_m) : 0,
+                                   .slide_far_m = rows[i].own_m};
         f.opts.shadow.light_count = 1;
         const struct gn_plan *plan = gn_plan_make(&f);
         const struct gn_pass *last = &plan->passes[plan->pass_count - 1];

@@ -29,12 +29,12 @@ static void test_a_tone_is_for_pictures_that_are_looked_at(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     f.opts.tone = GN_TONE_AGX;
     assert_true(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
-    f.opts.output_linear = true;
+    f.opts.output.linear = true;
     assert_false(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
-    f.opts.output_linear = false;
-    f.opts.output_float = true;
+    f.opts.output.linear = false;
+    f.opts.output.floats = true;
     assert_false(maps_tone(gn_plan_make(&f), GN_PROGRAM_LIT));
-    f.opts.output_float = false;
+    f.opts.output.floats = false;
     f.opts.tone = GN_TONE_AUTO;
     assert_int_equal(gn_plan_make(&f)->tone, GN_TONE_NONE); /* it has lights of its own */
     f.scene->added.light = true;
@@ -73,10 +73,10 @@ static void test_glass_plan(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     for (uint32_t i = 0; i < f.scene->material_count; i++) {
         struct gn_material *m = &f.scene->materials[i];
-        if (strcmp(m->name, "blue") == 0) m->coat = 1.0f;
+        if (strcmp(m->name, "blue") == 0) m->factors[GN_FACTOR_COAT] = 1.0f;
         if (m->alpha != GN_ALPHA_BLEND) continue;
         m->alpha = GN_ALPHA_OPAQUE;
-        m->transmission = 0.9f;
+        m->factors[GN_FACTOR_TRANSMISSION] = 0.9f;
         m->double_sided = true;
         glm_vec3_copy((vec3){1, 0.5f, 0.2f}, m->base_color);
         m->textures[GN_TEXTURE_BASE].texture = -1;
@@ -96,6 +96,30 @@ static void test_glass_plan(void **state) {
     assert_int_equal(tints % 2, 0);
     assert_true(tints > 0 && added >= tints);
     gn_plan_end(&f);
+}
+
+static uint64_t lit_features(const struct gn_plan *plan) {
+    uint64_t features = 0;
+    for (uint32_t i = 0; i < plan->program_count; i++)
+        if (plan->programs[i].kind == GN_PROGRAM_LIT) features |= plan->programs[i].features;
+    return features;
+}
+
+static void check_layer(enum gn_layer layer, uint64_t feature) {
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    assert_false(lit_features(gn_plan_make(&f)) & feature);
+    for (uint32_t i = 0; i < f.scene->material_count; i++)
+        f.scene->materials[i].factors[4 * layer] = 0.5f;
+    assert_true(lit_features(gn_plan_make(&f)) & feature);
+    gn_plan_end(&f);
+}
+
+static void test_every_layer_is_a_feature_of_programs(void **state) {
+    (void)state;
+#define GN_X(NAME, ...) check_layer(GN_LAYER_##NAME, GN_FEATURE(NAME));
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
 }
 
 /* With lights of its own: only metal reads the environment, and keeps the hemispheres. */
@@ -141,7 +165,7 @@ static void test_backdrop_plan(void **state) {
     f.opts.debug.aov = GN_AOV_COLOR;
     f.opts.background = GN_BACKGROUND_TRANSPARENT; /* holds, where it is kept */
     assert_int_equal(gn_plan_make(&f)->pass_count, passes);
-    f.opts.keeps_alpha = true;
+    f.opts.output.keeps_alpha = true;
     const struct gn_plan *plan = gn_plan_make(&f);
     for (uint32_t i = 0; i < plan->program_count; i++)
         assert_int_not_equal(plan->programs[i].kind, GN_PROGRAM_BACKDROP);
@@ -154,6 +178,7 @@ int main(void) {
         cmocka_unit_test(test_a_tone_is_for_pictures_that_are_looked_at),
         cmocka_unit_test(test_blended_plan),
         cmocka_unit_test(test_glass_plan),
+        cmocka_unit_test(test_every_layer_is_a_feature_of_programs),
         cmocka_unit_test(test_reflections_plan),
         cmocka_unit_test(test_backdrop_plan),
     };

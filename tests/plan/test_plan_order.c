@@ -57,8 +57,7 @@ static void test_many_draws_come_nearest_first(void **state) {
     struct gn_scene *scene = make_scene();
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 4096, .max_texture_units = 16};
-    const struct gn_frame_opts opts = {
-        .width_px = 320, .height_px = 180, .shadow.encoding = GN_ENCODING_AUTO};
+    const struct gn_frame_opts opts = {.output.width_px = 320, .output.height_px = 180};
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     struct gn_frame *frame = gn_frame_create(scene, &caps);

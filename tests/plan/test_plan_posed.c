@@ -51,8 +51,7 @@ static void begin(struct gn_plan_fixture *f) {
     gn_pose_init(&f->pose, f->scene, GN_POSE_DEFAULT);
     gn_pose_step(&f->pose, 500000000);
     f->frame = gn_frame_create(f->scene, &caps);
-    f->opts.shadow.technique_given = true;
-    f->opts.shadow.technique = GN_TECHNIQUE_PCF;
+    GN_LIGHT_SET(&f->opts.shadow.any, technique, GN_TECHNIQUE_PCF);
 }
 
 static void test_posed_plan(void **state) {

@@ -56,7 +56,7 @@ static int cut_open(void *user, int folder, const char *name, int flags, mode_t 
     (void)user;
     if (!begin_call(folder)) return -1;
     const bool makes = flags & O_CREAT && faccessat(folder, name, F_OK, 0) != 0;
-    const int fd = gn_take_disk.open(NULL, folder, name, flags, mode);
+    const int fd = gn_disk.open(NULL, folder, name, flags, mode);
     if (fd >= 0 && makes) note_change(GN_CUT_MADE, folder, name, NULL, -1);
     return fd;
 }
@@ -141,7 +141,7 @@ static int cut_exchange(void *user, int folder, const char *a, const char *b) {
     errno = EINVAL;
     if (gn_cut_disk.keeps_names) return -1;
     note_change(GN_CUT_EXCHANGED, folder, a, b, -1);
-    return gn_take_disk.exchange(NULL, folder, a, b);
+    return gn_disk.exchange(NULL, folder, a, b);
 }
 
 static int cut_symlink(void *user, const char *target, int folder, const char *name) {
@@ -163,12 +163,12 @@ static int cut_unlink(void *user, int folder, const char *name, int flags) {
     return 0;
 }
 
-static int cut_list(void *user, int folder, struct gn_take_names *names) {
+static int cut_list(void *user, int folder, struct gn_disk_names *names) {
     (void)user;
-    return begin_call(folder) ? gn_take_disk.list(NULL, folder, names) : -1;
+    return begin_call(folder) ? gn_disk.list(NULL, folder, names) : -1;
 }
 
-const struct gn_take_files gn_cut_files = {
+const struct gn_disk gn_cut_files = {
     .open = cut_open,
     .read = cut_read,
     .write = cut_write,
@@ -213,7 +213,7 @@ static void undo_change(const struct gn_cut_change *c) {
         if (c->kept >= 0) assert_int_equal(renameat(AT_FDCWD, kept, c->folder, c->other), 0);
         break;
     case GN_CUT_EXCHANGED:
-        assert_int_equal(gn_take_disk.exchange(NULL, c->folder, c->name, c->other), 0);
+        assert_int_equal(gn_disk.exchange(NULL, c->folder, c->name, c->other), 0);
         break;
     case GN_CUT_GONE: assert_int_equal(renameat(AT_FDCWD, kept, c->folder, c->name), 0); break;
     }

@@ -6,7 +6,7 @@
 #include <limits.h>
 #include <stdbool.h>
 
-#include "take/files.h"
+#include "core/disk.h"
 
 enum { GN_CUT_CHANGES = 256, GN_CUT_DIRTY = 64 };
 struct gn_cut_disk {
@@ -27,7 +27,7 @@ struct gn_cut_disk {
     int dirty_count;
 };
 extern struct gn_cut_disk gn_cut_disk;
-extern const struct gn_take_files gn_cut_files; /* the calls on it */
+extern const struct gn_disk gn_cut_files; /* the calls on it */
 
 /* All is well, and everything is flushed. The three folders must be set. */
 void gn_cut_start(void);

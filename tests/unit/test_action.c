@@ -23,25 +23,25 @@ static void actions_are_read(void **state) {
     (void)state;
     struct gn_action action;
     struct gn_err err = {0};
-    assert_true(gn_action_parse("next", "x", &action, &err));
+    assert_true(gn_action_parse("next", &action, &err));
     assert_int_equal(action.kind, GN_ACTION_NEXT);
     assert_null(action.name);
-    assert_true(gn_action_parse("mode  Soft shadows", "x", &action, &err));
+    assert_true(gn_action_parse("mode  Soft shadows", &action, &err));
     assert_int_equal(action.kind, GN_ACTION_MODE);
     assert_string_equal(action.name, "Soft shadows");
-    assert_true(gn_action_parse("play Wave hello", "x", &action, &err));
+    assert_true(gn_action_parse("play Wave hello", &action, &err));
     assert_int_equal(action.kind, GN_ACTION_PLAY);
     assert_string_equal(action.name, "Wave hello");
-    assert_true(gn_action_parse("pause on", "x", &action, &err));
+    assert_true(gn_action_parse("pause on", &action, &err));
     assert_int_equal(action.kind, GN_ACTION_PAUSE);
     assert_int_equal(action.turn, GN_TURN_ON);
-    assert_true(gn_action_parse("blank  off", "x", &action, &err));
+    assert_true(gn_action_parse("blank  off", &action, &err));
     assert_int_equal(action.turn, GN_TURN_OFF);
-    assert_true(gn_action_parse("info", "x", &action, &err));
+    assert_true(gn_action_parse("info", &action, &err));
     assert_int_equal(action.turn, GN_TURN_OTHER);
     for (int k = GN_ACTION_NONE; k < GN_ACTION_KIND_COUNT; k++) {
         if (k == GN_ACTION_MODE || k == GN_ACTION_PLAY) continue;
-        assert_true(gn_action_parse(gn_action_name((enum gn_action_kind)k), "x", &action, &err));
+        assert_true(gn_action_parse(gn_action_name((enum gn_action_kind)k), &action, &err));
         assert_int_equal(action.kind, k);
     }
 }
@@ -53,9 +53,9 @@ static void what_is_no_action_is_refused(void **state) {
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         struct gn_action action = {0};
         struct gn_err err = {0};
-        assert_false(gn_action_parse(bad[i], "kiosk.ini:7: press", &action, &err));
+        assert_false(gn_action_parse(bad[i], &action, &err));
         assert_int_equal(err.status, GN_EXIT_USAGE);
-        assert_int_equal(strncmp(err.text, "kiosk.ini:7: press: ", 20), 0);
+        assert_string_not_equal(err.text, "");
     }
 }
 

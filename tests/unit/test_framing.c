@@ -102,14 +102,14 @@ static void test_the_camera_fades_with_the_pose(void **state) {
     assert_float_equal(depth_of(&pose), near_m, 1e-4);
     float last_m = near_m;
     for (int i = 1; i < 8; i++) {
-        pose.fade = (float)i / 8;
+        pose.at.fade = (float)i / 8;
         assert_true(depth_of(&pose) > last_m);
         last_m = depth_of(&pose);
     }
     for (int i = 0; i < 20; i++) {
         gn_pose_choose_fading(&pose, i % 2 ? 0 : GN_POSE_NONE, i % 3 ? -1 : 0);
         assert_float_equal(depth_of(&pose), last_m, 1e-3);
-        pose.fade = .25f;
+        pose.at.fade = .25f;
         last_m = depth_of(&pose);
     }
     gn_pose_choose_over(&pose, GN_POSE_NONE, 0);
@@ -236,7 +236,7 @@ static void test_a_fade_between_clips_takes_the_camera_along(void **state) {
     gn_framing_build(&pose, scene->camera_count - 1, &opts, &still);
     gn_pose_choose_fading(&pose, 0, -1);
     for (int i = 0; i < 5; i++) {
-        pose.fade = fades[i];
+        pose.at.fade = fades[i];
         gn_framing_build(&pose, scene->camera_count - 1, &opts, &framing);
         away[i] = glm_vec3_distance(framing.eye_ws, still.eye_ws);
         vec3 back; /* the view is that of the eye */

@@ -1,3 +1,4 @@
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,6 +118,31 @@ static void test_slides_go_with_their_lights(void **state) {
     free(text);
 }
 
+/* Of the shaders of the program: the folder of the others has no layers. */
+static void test_layers_are_called_from_the_base_upwards(void **state) {
+    (void)state;
+    struct gn_program_key key = lit_key();
+    struct gn_gl_text text = {0};
+    struct gn_err err = {0};
+    assert_true(gn_gl_compose(NULL, &key, GN_GL_FRAGMENT, &text, &err));
+    has(text.data, "#define LAYERS_BEGIN(smooth_normal, s)\n");
+    assert_null(strstr(text.data, "coat_begin("));
+    gn_gl_text_finish(&text);
+    key.features = GN_FEATURE(SPECULAR) | GN_FEATURE(COAT) | GN_FEATURE(TRANSMISSION) |
+                   GN_FEATURE(COAT_TEXTURE);
+    assert_true(gn_gl_compose(NULL, &key, GN_GL_FRAGMENT, &text, &err));
+    has(text.data, "#define LAYERS_BEGIN(smooth_normal, s) transmission_begin(smooth_normal, s); "
+                   "coat_begin(smooth_normal, s);\n");
+    has(text.data, "void coat_end(surface s, inout vec3 color) {");
+    char factor[80];
+    snprintf(factor, sizeof factor, "#define FACTOR_COAT_ROUGHNESS u_factors[%d].y\n",
+             1 + GN_LAYER_COAT);
+    has(text.data, factor);
+    has(text.data, "#define TEXEL_COAT texture(u_texture_coat, v_uv_coat)\n");
+    has(text.data, "#define TEXEL_COAT_ROUGHNESS vec4(1.0)\n");
+    gn_gl_text_finish(&text);
+}
+
 static void test_distance_has_its_encoding(void **state) {
     (void)state;
     struct gn_program_key key = lit_key();
@@ -200,6 +226,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(test_constants),
         TEST(test_lights),
+        TEST(test_layers_are_called_from_the_base_upwards),
         TEST(test_distance_has_its_encoding),
         TEST(test_include_once),
         TEST(test_include_fails),

@@ -186,7 +186,7 @@ static void test_stopped_between_programs(void **state) {
     struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    const struct gn_frame_opts opts = {.width_px = 64, .height_px = 36};
+    const struct gn_frame_opts opts = {.output.width_px = 64, .output.height_px = 36};
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
     const int count = (int)plan->program_count;
     assert_true(count > 2);
@@ -242,7 +242,7 @@ static void draw_in_groups(struct gn_display *display, const char *without, bool
     struct gn_frame *frame = gn_frame_create(scene, gn_gl_caps(gl));
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    const struct gn_frame_opts frame_opts = {.width_px = 64, .height_px = 36};
+    const struct gn_frame_opts frame_opts = {.output.width_px = 64, .output.height_px = 36};
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &frame_opts, NULL);
     groups_pushed = groups_popped = 0;
     *has_debug = gn_gl_caps(gl)->has & 1u << GN_CAP_DEBUG;

@@ -150,6 +150,24 @@ static void test_an_error_before_reading_is_told(void **state) {
     }
 }
 
+/* Of a screen without GL: blue first in memory, the first row at the top. */
+static void test_a_copy_for_a_screen_is_xrgb_in_rows_of_its_stride(void **state) {
+    (void)state;
+    enum { STRIDE = 4 * SIDE + 8 };
+    uint8_t out[SIDE][STRIDE];
+    memset(out, 77, sizeof out);
+    begin_plan(GN_OUTPUT_SRGB8);
+    s.programs[0].features = GN_FEATURE(BASE_TEXTURE);
+    add_draw(HELP_FAR, instance(1, 1, 1, 1))->material = 1;
+    prepare();
+    run();
+    assert_true(gn_gl_read_xrgb8888(gl, &out[0][0], STRIDE, &err));
+    assert_memory_equal(&out[0][0], ((uint8_t[]){255, 0, 0, 255}), 4);
+    assert_memory_equal(&out[SIDE - 1][0], ((uint8_t[]){0, 0, 255, 255}), 4);
+    assert_memory_equal(&out[SIDE - 1][4 * SIDE - 4], ((uint8_t[]){0, 255, 0, 255}), 4);
+    for (int i = 4 * SIDE; i < STRIDE; i++) assert_int_equal(out[0][i], 77);
+}
+
 /* ---- the stencil ---- */
 
 /* The far square in red, and 80 marks it; the near one, which is half as wide, adds 1 and leaves no
@@ -362,6 +380,7 @@ int main(void) {
         TEST(test_msaa),
         TEST(test_float_and_aov),
         TEST(test_an_error_before_reading_is_told),
+        TEST(test_a_copy_for_a_screen_is_xrgb_in_rows_of_its_stride),
         TEST(test_stencil),
         TEST(test_maps),
         TEST(test_map_skipped),

@@ -10,6 +10,7 @@
 #include "options/args.h"
 #include "options/file.h"
 #include "options/ini.h"
+#include "options/section.h"
 #include "stage/lights.h"
 #include "unit/folder.h"
 
@@ -332,12 +333,12 @@ static void there_are_so_many_lights(void **state) {
     (void)state;
     char text[2000] = "";
     size_t used = 0;
-    for (int i = 0; i <= GN_LIGHT_SECTIONS_MAX; i++) {
+    for (int i = 0; i <= GN_SECTIONS_MAX; i++) {
         used += (size_t)snprintf(text + used, sizeof text - used, "[light \"%d\"]\n", i);
-        if (i + 1 < GN_LIGHT_SECTIONS_MAX) continue;
+        if (i + 1 < GN_SECTIONS_MAX) continue;
         write_file("k.ini", text);
         assert_int_equal(PARSE("gnomon", "render", "-c", (char *)in_folder("k.ini")),
-                         i < GN_LIGHT_SECTIONS_MAX);
+                         i < GN_SECTIONS_MAX);
     }
     assert_non_null(strstr(err.text, "k.ini:33: more than 32 lights"));
 }

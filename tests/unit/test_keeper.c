@@ -2,7 +2,9 @@
 #include "unit/check.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
+#include <semaphore.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,20 +17,18 @@ static struct gn_err err;
 /* A disk that waits in fsync for a byte of a pipe, and keeps what is written. */
 static struct slow {
     int pipe[2];
+    sem_t begun;                     /* saves */
     char text[2][GN_STATE_TEXT_MAX]; /* of both generations */
     char fresh[GN_STATE_TEXT_MAX];
     size_t size;
     int reason; /* of a create that fails; 0: none does */
 } disk;
 
-static ssize_t read_file(void *user, const char *path, char *out, size_t size) {
-    (void)user, (void)path, (void)out, (void)size;
-    errno = ENOENT;
-    return -1;
-}
-static int create(void *user, const char *path) {
-    (void)user, (void)path;
+static int open_file(void *user, int folder, const char *name, int flags, mode_t mode) {
+    (void)user, (void)folder, (void)name, (void)mode;
+    if (flags & O_DIRECTORY) return 2000;
     disk.size = 0;
+    sem_post(&disk.begun);
     errno = disk.reason;
     return disk.reason ? -1 : 1000;
 }
@@ -40,30 +40,21 @@ static ssize_t write_data(void *user, int fd, const void *data, size_t size) {
 }
 static int flush(void *user, int fd) {
     char byte;
-    (void)user, (void)fd;
-    return read(disk.pipe[0], &byte, 1) == 1 ? 0 : -1;
+    (void)user;
+    return fd == 2000 || read(disk.pipe[0], &byte, 1) == 1 ? 0 : -1;
 }
 static int close_fd(void *user, int fd) {
     (void)user, (void)fd;
     return 0;
 }
-static int rename_to(void *user, const char *from, const char *to) {
-    (void)user, (void)from;
+static int rename_to(void *user, int folder, const char *from, const char *to) {
+    (void)user, (void)folder, (void)from;
     memcpy(disk.text[strcmp(to, "s.2") == 0], disk.fresh, sizeof disk.fresh);
     return 0;
 }
-static int flush_folder(void *user, const char *path) {
-    (void)user, (void)path;
-    return 0;
-}
 
-static const struct gn_state_files files = {.read_file = read_file,
-                                            .create = create,
-                                            .write = write_data,
-                                            .fsync = flush,
-                                            .close = close_fd,
-                                            .rename = rename_to,
-                                            .fsync_folder = flush_folder};
+static const struct gn_disk calls = {
+    .open = open_file, .write = write_data, .fsync = flush, .close = close_fd, .rename = rename_to};
 
 static void let_go(void) { assert_int_equal(write(disk.pipe[1], "x", 1), 1); }
 
@@ -79,10 +70,11 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
     (void)state;
     bool ok = false;
     struct gn_state s = {.sequence = 7, .mode = "A"};
-    struct gn_keeper *keeper = gn_keeper_create(&files, "s", 1, &err);
+    struct gn_keeper *keeper = gn_keeper_open(&calls, "s", 1, &err);
     assert_int_equal(pipe(disk.pipe), 0);
+    assert_int_equal(sem_init(&disk.begun, 0, 0), 0);
     assert_non_null(keeper);
-    assert_true(gn_keeper_start(keeper, &s, &err)); /* or this test does not go on */
+    gn_keeper_save(keeper, &s); /* or this test does not go on */
     snprintf(s.mode, sizeof s.mode, "changed meanwhile");
     usleep(20000);
     assert_true(gn_keeper_is_busy(keeper));
@@ -94,7 +86,7 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
 
     /* the next one goes to the other generation */
     s = (struct gn_state){.sequence = 8, .mode = "B"};
-    assert_true(gn_keeper_start(keeper, &s, &err));
+    gn_keeper_save(keeper, &s);
     let_go();
     assert_true(finish(keeper));
     assert_non_null(strstr(disk.text[0], "mode B\n"));
@@ -102,14 +94,17 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
 
     /* one that fails stays there, and the end waits for the one that is under way */
     disk.reason = ENOSPC;
-    assert_true(gn_keeper_start(keeper, &s, &err));
+    gn_keeper_save(keeper, &s);
     assert_false(finish(keeper));
-    assert_non_null(strstr(err.text, "s.new: cannot write: No space left"));
+    assert_non_null(strstr(err.text, "s.2: cannot write: No space left"));
     disk.reason = 0;
     s.sequence = 9;
-    assert_true(gn_keeper_start(keeper, &s, &err));
+    while (sem_trywait(&disk.begun) == 0) {
+    }
+    gn_keeper_save(keeper, &s);
+    sem_wait(&disk.begun);
     s = (struct gn_state){.sequence = 10, .mode = "C"};
-    assert_true(gn_keeper_start_last(keeper, &s, &err)); /* while that is written */
+    gn_keeper_save(keeper, &s); /* while that is written */
     let_go();
     let_go();
     assert_true(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
@@ -121,24 +116,24 @@ static void a_disk_that_does_not_answer_holds_nobody_up(void **state) {
 static void the_end_waits_for_a_disk_but_not_for_long(void **state) {
     (void)state;
     struct gn_state s = {.sequence = 11};
-    struct gn_keeper *keeper = gn_keeper_create(&files, "s", 1, &err);
-    assert_true(gn_keeper_start_last(keeper, &s, &err));
+    struct gn_keeper *keeper = gn_keeper_open(&calls, "s", 1, &err);
+    gn_keeper_save(keeper, &s);
     let_go();
     assert_true(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
     assert_non_null(strstr(disk.text[1], "sequence 11\n"));
 
     /* the file of a save that fails at the end is named */
-    keeper = gn_keeper_create(&files, "s", 1, &err);
+    keeper = gn_keeper_open(&calls, "s", 1, &err);
     disk.reason = EROFS;
-    assert_true(gn_keeper_start_last(keeper, &s, &err));
+    gn_keeper_save(keeper, &s);
     assert_false(gn_keeper_close(keeper, 10 * GN_NS_PER_S, &err));
-    assert_non_null(strstr(err.text, "s.new: cannot write: Read-only"));
+    assert_non_null(strstr(err.text, "s.2: cannot write: Read-only"));
     disk.reason = 0;
 
     /* it does not answer: the thread keeps what it works on */
     err = (struct gn_err){0};
-    keeper = gn_keeper_create(&files, "s", 1, &err);
-    assert_true(gn_keeper_start_last(keeper, &s, &err));
+    keeper = gn_keeper_open(&calls, "s", 1, &err);
+    gn_keeper_save(keeper, &s);
     const int64_t begun_ns = gn_clock_monotonic_ns();
     assert_false(gn_keeper_close(keeper, GN_NS_PER_S / 20, &err));
     assert_true(gn_clock_monotonic_ns() - begun_ns >= GN_NS_PER_S / 20);

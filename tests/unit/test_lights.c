@@ -9,6 +9,7 @@
 #include "stage/lights.h"
 #include "stage/stage.h"
 #include "unit/gltf_maker.h"
+#include "unit/light_help.h"
 #include "unit/options_help.h"
 
 static char path[] = "/tmp/gnomon-lights-XXXXXX";
@@ -46,7 +47,7 @@ static bool build_look(const char *file, const char *flag, const char *value) {
     return gn_stage_look_build(&look, options.settings, scene, &warnings, &err);
 }
 
-static const struct gn_frame_light_opts *of_light(uint32_t light) {
+static const struct gn_light_opts *of_light(uint32_t light) {
     for (uint32_t i = 0; i < look.frame_opts.shadow.light_count; i++)
         if (look.frame_opts.shadow.lights[i].light == light)
             return &look.frame_opts.shadow.lights[i];
@@ -58,7 +59,7 @@ static void a_light_is_found_by_its_node_or_its_own_name(void **state) {
     make_scene(true);
     assert_true(build_look("[light \"Lamp\"]\nshadow = pcss\n", NULL, NULL));
     assert_int_equal(look.frame_opts.shadow.light_count, 1);
-    assert_int_equal(of_light(1)->given, GN_LIGHT_TECHNIQUE);
+    assert_int_equal(of_light(1)->given, GN_LIGHT_GIVEN(technique));
     assert_int_equal(of_light(1)->technique, GN_TECHNIQUE_PCSS);
     assert_true(build_look("[light \"Lamp\"]\nshadow = pcss\n[light \"Spot light\"]\nmap = 64\n"
                            "cascades = 2\ncast_faces = middle\nslide_aspect = "
@@ -76,8 +77,7 @@ static void a_light_is_found_by_its_node_or_its_own_name(void **state) {
     assert_int_equal(of_light(1)->taps, 44);
     assert_true(of_light(1)->slide_far_m == 3.0f);
     assert_int_equal(of_light(1)->faces, 1 + GN_CAST_MIDDLE);
-    assert_int_equal(of_light(1)->encoding, GN_ENCODING_AUTO);
-    assert_int_equal(of_light(1)->moments, GN_MOMENTS_RGBA16UI);
+    assert_int_equal(of_light(1)->map_format, GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_RGBA16UI));
     assert_true(of_light(1)->strength == 0.5f);
     assert_true(of_light(1)->radius == 0.25f);
     assert_int_equal(warnings.count, 0);
@@ -89,24 +89,26 @@ static void automatic_of_one_beats_what_holds_for_all(void **state) {
     assert_true(build_look("[render]\nbias = 0\nfilter_radius = 2\n[light \"Sun\"]\nbias = auto\n"
                            "filter_radius = auto\n",
                            NULL, NULL));
-    assert_true(look.frame_opts.shadow.bias_given && look.frame_opts.shadow.bias_texels == 0.0f);
-    assert_int_equal(of_light(0)->given, GN_LIGHT_BIAS | GN_LIGHT_FILTER);
+    const struct gn_light_opts *any = &look.frame_opts.shadow.any;
+    assert_int_equal(any->given, GN_LIGHT_GIVEN(bias_texels) | GN_LIGHT_GIVEN(filter_radius_px));
+    assert_true(any->bias_texels == 0.0f);
+    assert_int_equal(of_light(0)->given,
+                     GN_LIGHT_GIVEN(bias_texels) | GN_LIGHT_GIVEN(filter_radius_px));
     assert_true(of_light(0)->bias_texels < 0);
-    assert_true(look.frame_opts.shadow.filter_radius_px == 2.0f);
-    assert_true(of_light(0)->filter_radius_px == 0.0f);
+    assert_true(any->filter_radius_px == 2.0f);
+    assert_true(of_light(0)->filter_radius_px < 0);
     assert_true(build_look("", NULL, NULL));
-    assert_false(look.frame_opts.shadow.bias_given);
-    assert_true(look.frame_opts.shadow.filter_radius_px == 0.0f);
+    assert_int_equal(any->given, 0);
 }
 
 static void a_flag_beats_it(void **state) {
     (void)state;
     make_scene(true);
     assert_true(build_look("[light \"Sun\"]\nshadow = none\nmap = 64\n", "--shadow", "hard"));
-    assert_int_equal(of_light(0)->given, GN_LIGHT_TECHNIQUE | GN_LIGHT_MAP_PX);
+    assert_int_equal(of_light(0)->given, GN_LIGHT_GIVEN(technique) | GN_LIGHT_GIVEN(map_px));
     assert_int_equal(of_light(0)->technique, GN_TECHNIQUE_NONE); /* always holds */
     assert_true(build_look("[light \"Sun\"]\nshadow = pcf\nmap = 64\n", "--shadow", "hard"));
-    assert_int_equal(of_light(0)->given, GN_LIGHT_MAP_PX);
+    assert_int_equal(of_light(0)->given, GN_LIGHT_GIVEN(map_px));
 }
 
 static void a_name_that_no_light_has_is_one_warning(void **state) {
@@ -140,10 +142,10 @@ static void the_radius_of_all_is_that_of_the_made_light(void **state) {
 
 static void assert_color(uint32_t light, float r, float g, float b) {
     const float expected[] = {r, g, b};
-    assert_true(of_light(light)->given & GN_LIGHT_COLOR);
+    const struct gn_light_opts holds = gn_light_held(scene, &look.frame_opts, light);
     for (int k = 0; k < 3; k++)
-        if (!(fabsf(of_light(light)->color[k] - expected[k]) < 1e-4f))
-            fail_msg("%g is not %g", (double)of_light(light)->color[k], (double)expected[k]);
+        if (!(fabsf(holds.color[k] - expected[k]) < 1e-4f))
+            fail_msg("%g is not %g", (double)holds.color[k], (double)expected[k]);
 }
 
 static void a_light_has_a_colour_an_intensity_and_a_switch(void **state) {
@@ -154,8 +156,10 @@ static void a_light_has_a_colour_an_intensity_and_a_switch(void **state) {
                            NULL, NULL));
     const float green = powf((128 / 255.0f + .055f) / 1.055f, 2.4f);
     assert_color(0, 5, 5 * green, 0);
-    assert_int_equal(of_light(1)->given, GN_LIGHT_OFF);
-    assert_int_equal(of_light(2)->given, 0);
+    assert_int_equal(of_light(1)->given, GN_LIGHT_GIVEN(on));
+    assert_false(of_light(1)->on);
+    assert_int_equal(of_light(2)->given, GN_LIGHT_GIVEN(on));
+    assert_true(of_light(2)->on);
     /* the order does not count, nor how bright the colour is; 1 is the file's intensity */
     assert_true(build_look("[light \"Sun\"]\ncolor = #404040\nintensity = 5\n"
                            "[light \"Lamp\"]\ncolor = #0000ff\n[light \"Bulb\"]\n"

@@ -157,6 +157,20 @@ static void test_on_other_boards_those_names_mean_something_else(void **state) {
     assert_report("no GPIO line named GPIO2");
 }
 
+static void test_a_line_of_that_name_beats_what_other_kernels_call_so(void **state) {
+    (void)state;
+    buttons[0].line = "GPIO2";
+    buttons[1].line = "GPIO3";
+    fake_gpio_plug(&gpio, 0, 0, "pinctrl-bcm2711", 4);
+    strcpy(gpio.chips[0].line[0].name, "GPIO2");
+    strcpy(gpio.chips[0].line[1].name, "SDA1");
+    strcpy(gpio.chips[0].line[2].name, "SCL1");
+    strcpy(gpio.chips[0].line[3].name, "GPIO3");
+    open_input(&fake_gpio_ops);
+    assert_report("GPIO2 (gpiochip0 line 0)");
+    assert_report("GPIO3 (gpiochip0 line 3)");
+}
+
 static void test_two_lines_of_one_name_are_refused_with_both_chips(void **state) {
     (void)state;
     fake_gpio_plug(&gpio, 0, 0, "brcmstb", 4);
@@ -417,6 +431,7 @@ int main(void) {
         TEST(test_a_line_is_found_by_its_chips_label),
         TEST(test_other_kernels_names_of_a_pi_are_known),
         TEST(test_on_other_boards_those_names_mean_something_else),
+        TEST(test_a_line_of_that_name_beats_what_other_kernels_call_so),
         TEST(test_two_lines_of_one_name_are_refused_with_both_chips),
         TEST(test_numbers_of_chips_and_wrong_specs_are_wrong_usage),
         TEST(test_a_build_without_a_library_says_so),

@@ -1,7 +1,9 @@
 /* Extensions of materials: what they become, and what is named as missing. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "scene/property.h"
 #include "unit/scene_help.h"
 
 static int setup_with_material(void **state) {
@@ -121,22 +123,77 @@ static void test_clear_coat(void **state) {
                                  "'clearcoatRoughnessFactor':0.25}"));
     const struct gn_material *m = &scene->materials[0];
     assert_int_equal(warnings.count, 0);
-    assert_near(m->coat, .75f);
-    assert_near(m->coat_roughness, .25f);
-    assert_true(gn_material_is_coated(m) && gn_material_is_specular(m));
+    assert_near(m->factors[GN_FACTOR_COAT], .75f);
+    assert_near(m->factors[GN_FACTOR_COAT_ROUGHNESS], .25f);
+    assert_true(gn_material_has(m, GN_LAYER_COAT) && gn_material_is_specular(m));
     assert_true(gn_material_needs_reflections(m));
     assert_false(gn_material_is_blended(m));
     gn_scene_destroy(scene);
     scene = load_material(EXTENSIONS("'KHR_materials_clearcoat':{'clearcoatFactor':7,"
                                      "'clearcoatRoughnessFactor':-1e30}"));
-    assert_near(scene->materials[0].coat, 1);
-    assert_near(scene->materials[0].coat_roughness, 0);
+    assert_near(scene->materials[0].factors[GN_FACTOR_COAT], 1);
+    assert_near(scene->materials[0].factors[GN_FACTOR_COAT_ROUGHNESS], 0);
     gn_scene_destroy(scene);
     scene = load_material(
         "'pbrMetallicRoughness':{'metallicFactor':0}," EXTENSIONS("'KHR_materials_clearcoat':{}"));
-    assert_false(gn_material_is_coated(&scene->materials[0])); /* 0 where nothing is said */
+    assert_false(
+        gn_material_has(&scene->materials[0], GN_LAYER_COAT)); /* 0 where nothing is said */
     assert_false(gn_material_needs_reflections(&scene->materials[0]));
     gn_scene_destroy(scene);
+}
+
+/* A material whose JSON has the property's factors, all of them that number. */
+static struct gn_scene *load_factor(const struct gn_property *p, float value, const char *more) {
+    const char *extension = p->path + strlen("extensions."), *key = strchr(extension, '.') + 1;
+    char numbers[100] = "", json[400];
+    for (uint32_t k = 0; k < p->components; k++)
+        snprintf(numbers + strlen(numbers), sizeof numbers - strlen(numbers), "%s%g", k ? "," : "",
+                 (double)value);
+    snprintf(json, sizeof json, p->components > 1 ? "'%s':[%s]" : "'%s':%s", key, numbers);
+    snprintf(numbers, sizeof numbers, "%s", json);
+    snprintf(json, sizeof json, "'extensions':{%s'%.*s':{%s}}", more, (int)(key - 1 - extension),
+             extension, numbers);
+    return load_material(json);
+}
+
+static void assert_factors(const struct gn_scene *scene, int first, uint32_t count, float wanted) {
+    for (uint32_t k = 0; k < count; k++)
+        assert_near(scene->materials[0].factors[(uint32_t)first + k], wanted);
+}
+
+/* A factor of a layer is named by pointers, loaded, kept within its bounds, and 0 of what is unlit.
+ */
+static void check_factor(const char *path, enum gn_layer layer, int first) {
+    char pointer[200];
+    struct gn_property p;
+    snprintf(pointer, sizeof pointer, "/%s", path);
+    for (char *dot = pointer; (dot = strchr(dot, '.'));) *dot = '/';
+    assert_true(gn_property_find(GN_THING_MATERIAL, pointer, &p));
+    assert_int_equal(p.moves, GN_MOVES_FIRST_LAYER << layer);
+
+    const float middle = p.least + (p.most - p.least) / 4;
+    struct gn_scene *scene = load_factor(&p, middle, "");
+    assert_factors(scene, first, p.components, middle);
+    if (first == 4 * (int)layer) assert_true(gn_material_has(&scene->materials[0], layer));
+    gn_scene_destroy(scene);
+    scene = load_factor(&p, p.most + 1, "");
+    assert_factors(scene, first, p.components, p.most);
+    gn_scene_destroy(scene);
+    scene = load_factor(&p, middle, "'KHR_materials_unlit':{},");
+    assert_factors(scene, first, p.components, 0);
+    gn_scene_destroy(scene);
+    scene = load_material("");
+    assert_factors(scene, first, p.components, p.fallback);
+    assert_false(gn_material_has(&scene->materials[0], layer));
+    gn_scene_destroy(scene);
+}
+
+static void test_every_factor_of_a_layer_is_read_and_animated(void **state) {
+    (void)state;
+#define GN_X(LAYER, NAME, first, components, path, ...)                                            \
+    check_factor(path, GN_LAYER_##LAYER, GN_FACTOR_##NAME);
+    GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+#undef GN_X
 }
 
 #define GLASS(factor) "'KHR_materials_transmission':{'transmissionFactor':" factor "}"
@@ -146,7 +203,7 @@ static void test_transmission(void **state) {
     struct gn_scene *scene = load_material(EXTENSIONS(GLASS("0.8")));
     const struct gn_material *m = &scene->materials[0];
     assert_int_equal(warnings.count, 0);
-    assert_near(m->transmission, .8f);
+    assert_near(m->factors[GN_FACTOR_TRANSMISSION], .8f);
     assert_int_equal(m->alpha, GN_ALPHA_OPAQUE);
     assert_true(gn_material_is_blended(m) && gn_material_is_clear(m));
     assert_false(gn_material_is_tinted(m) || gn_material_has_opaque_texels(m));
@@ -163,7 +220,7 @@ static void test_transmission(void **state) {
     scene = load_material(EXTENSIONS(GLASS("1") ",'KHR_materials_unlit':{},"
                                                 "'KHR_materials_clearcoat':{'clearcoatFactor':1}"));
     m = &scene->materials[0];
-    assert_false(gn_material_is_transmissive(m) || gn_material_is_coated(m));
+    assert_false(gn_material_is_transmissive(m) || gn_material_has(m, GN_LAYER_COAT));
     gn_scene_destroy(scene);
 }
 
@@ -403,6 +460,7 @@ int main(void) {
         cmocka_unit_test(test_specular_glossiness),
         cmocka_unit_test(test_what_is_missing_is_named),
         cmocka_unit_test(test_materials_that_nothing_shows_miss_nothing),
+        cmocka_unit_test(test_every_factor_of_a_layer_is_read_and_animated),
         cmocka_unit_test(test_clear_coat),
         cmocka_unit_test(test_transmission),
         cmocka_unit_test(test_a_volume_tints),

@@ -190,9 +190,7 @@ static void test_all_of_the_scene_is_seen_from_everywhere(void **state) {
                                              {.yaw_rad = 2.5f, .shift_m = {0, .3f, 0}}};
     for (uint32_t camera = NEAR_CAMERA; camera <= FLAT_CAMERA; camera++)
         for (int i = 0; i < 2; i++) {
-            const struct gn_frame_opts opts = {.view.camera = (int)camera,
-                                               .shadow.encoding = GN_ENCODING_AUTO,
-                                               .view.orbit = orbits[i]};
+            const struct gn_frame_opts opts = {.view.camera = (int)camera, .view.orbit = orbits[i]};
             const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
             const struct gn_pass *last = &plan->passes[plan->pass_count - 1];
             for (int corner = 0; corner < 8; corner++) {

@@ -102,14 +102,21 @@ static void test_cubic(void **state) {
 }
 
 static void test_rotation_takes_the_short_way(void **state) {
+    static const float none[3][4] = {{0, 0, 0, -1}, {0, 0, 0, -1}, {0, 0, 0, -1}};
     (void)state;
     animate("rotation", TURN, "LINEAR");
-    load(GN_POSE_DEFAULT);
+    animate("rotation", gn_maker_accessor(&maker, "VEC4", 5126, 3, none, sizeof none, NULL),
+            "LINEAR");
+    load(0);
     gn_pose_step(&pose, GN_NS_PER_S / 2); /* 45 degrees about y: x goes to (c, 0, -s) */
     assert_true(fabsf(pose.world_from_node[0][0][0] - .70710678f) < 1e-5f);
     assert_true(fabsf(pose.world_from_node[0][0][2] + .70710678f) < 1e-5f);
     gn_pose_step(&pose, GN_NS_PER_S * 3 / 2); /* 90 to 180, the second given by its negative */
     assert_true(fabsf(pose.world_from_node[0][0][0] + .70710678f) < 1e-5f);
+    gn_pose_choose_fading(&pose, 1, -1); /* to none, given by its negative */
+    pose.at.fade = .5f;
+    gn_pose_step(&pose, GN_NS_PER_S * 3 / 2);
+    assert_float_equal(pose.world_from_node[0][0][0], cos(3 * M_PI / 8), 1e-5);
 }
 
 static void test_time_is_exact_after_years(void **state) {
@@ -151,13 +158,13 @@ static void test_a_clip_over_others(void **state) {
     mat4 before;
     glm_mat4_copy(pose.world_from_node[0], before);
     gn_pose_choose_over(&pose, 2, 0);
-    pose.over_ns = GN_NS_PER_S / 2;
+    pose.at.over_ns = GN_NS_PER_S / 2;
     gn_pose_step(&pose, 3 * GN_NS_PER_S / 2);
     assert_true(pose.world_from_node[0][3][0] == 2); /* half a second of clip 0 */
     for (int k = 0; k < 3; k++)
         assert_true(pose.world_from_node[0][k][k] == before[k][k]); /* clip 2 at 1.5 s */
     gn_pose_choose_over(&pose, 1, 0);                               /* both move the same */
-    pose.over_ns = GN_NS_PER_S / 2;
+    pose.at.over_ns = GN_NS_PER_S / 2;
     gn_pose_step(&pose, 3 * GN_NS_PER_S / 2);
     assert_true(pose.world_from_node[0][3][0] == 2);
     gn_pose_choose(&pose, 2);
@@ -211,7 +218,7 @@ static void test_turns_and_speed_of_clips(void **state) {
             fail_msg("case %zu", i);
     animate("translation", MOVE, "LINEAR");
     load(0);
-    pose.run = (struct gn_pose_run){.turns = GN_POSE_PING_PONG};
+    pose.at.run = (struct gn_pose_run){.turns = GN_POSE_PING_PONG};
     gn_pose_step(&pose, 7 * S / 2); /* as at half a second */
     assert_true(pose.world_from_node[0][3][0] == 2);
 }
@@ -224,7 +231,7 @@ static void test_clips_that_stand(void **state) {
     load(0);
     gn_pose_step(&pose, 9 * GN_NS_PER_S);
     assert_false(gn_pose_stands(&pose));
-    pose.run = (struct gn_pose_run){.turns = GN_POSE_ONCE};
+    pose.at.run = (struct gn_pose_run){.turns = GN_POSE_ONCE};
     gn_pose_step(&pose, 2 * GN_NS_PER_S - 1);
     assert_false(gn_pose_stands(&pose));
     gn_pose_step(&pose, 2 * GN_NS_PER_S);
@@ -236,7 +243,7 @@ static void test_clips_that_stand(void **state) {
     gn_pose_step(&pose, 2 * GN_NS_PER_S);
     assert_false(gn_pose_stands(&pose));
     gn_pose_choose(&pose, 0);
-    pose.run = (struct gn_pose_run){.speed_less_1 = -1};
+    pose.at.run = (struct gn_pose_run){.speed_less_1 = -1};
     assert_true(gn_pose_stands(&pose));
 }
 
@@ -256,7 +263,7 @@ static void test_a_fade_between_clips(void **state) {
     gn_pose_step(&pose, half_ns);
     assert_float_equal(x_of(0), 2, 1e-5);
     assert_float_equal(pose.world_from_node[0][0][0], 1, 1e-5); /* no turn yet */
-    pose.fade = .25f;
+    pose.at.fade = .25f;
     gn_pose_step(&pose, GN_NS_PER_S); /* clip 1 there: a quarter turn */
     assert_float_equal(x_of(0), 1.5, 1e-5);
     const double w = .75 + .25 * sqrt(.5), y = .25 * sqrt(.5); /* by hand, before the length is 1 */

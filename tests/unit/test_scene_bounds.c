@@ -85,8 +85,7 @@ static void test_maps_are_within_triangles_per_frame(void **state) {
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 4096, .max_texture_units = 16};
     for (uint32_t shadows = 0; shadows <= 2; shadows++) {
-        const struct gn_frame_opts opts = {.shadow.encoding = GN_ENCODING_AUTO,
-                                           .shadow.triangles =
+        const struct gn_frame_opts opts = {.shadow.triangles =
                                                UINT64_C(1000000) * (1 + 6 * shadows)};
         memset(&warnings, 0, sizeof warnings);
         struct gn_pose pose;

@@ -5,6 +5,7 @@
 #include "options/args.h"
 #include "stage/stage.h"
 #include "unit/gltf_maker.h"
+#include "unit/light_help.h"
 #include "unit/options_help.h"
 
 static struct gn_scene *scene;
@@ -81,9 +82,9 @@ static void the_made_light_is_the_key(void **state) {
     (void)state;
     make_scene(matt, false);
     const struct gn_environment_key key = build_look(NULL, NULL)->of->key;
-    const struct gn_frame_light_opts *light = &look.frame_opts.shadow.lights[0];
+    const struct gn_light_opts *light = &look.frame_opts.shadow.lights[0];
     assert_int_equal(look.frame_opts.shadow.light_count, 1);
-    assert_int_equal(light->given, GN_LIGHT_COLOR | GN_LIGHT_RADIUS);
+    assert_int_equal(light->given, GN_LIGHT_GIVEN(color) | GN_LIGHT_GIVEN(radius));
     assert_memory_equal(light->color, key.color, sizeof key.color);
     assert_true(light->radius == key.radius && key.radius > 0.0f);
     build_look("--environment-strength", "2");
@@ -94,8 +95,9 @@ static void the_made_light_is_the_key(void **state) {
     build_look("--light-lux", "7");
     const float most = fmaxf(key.color[0], fmaxf(key.color[1], key.color[2]));
     assert_true(light->radius == key.radius);
+    const struct gn_light_opts holds = gn_light_held(scene, &look.frame_opts, 0);
     for (int k = 0; k < 3; k++)
-        assert_true(fabsf(light->color[k] - 7 * key.color[k] / most) < 1e-4f);
+        assert_true(fabsf(holds.color[k] - 7 * key.color[k] / most) < 1e-4f);
 }
 
 static int finish(void **state) {

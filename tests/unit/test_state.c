@@ -4,6 +4,7 @@
 #include "unit/check.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +18,9 @@ static struct gn_err err;
 
 /* ---- a disk --------------------------------------------------------------------------------- */
 
-enum { INODES = 64, NAMES = 3, PENDING = 64, AT_ONCE = 48 /* bytes that a write takes */ };
-static const char *const names[NAMES] = {"/d/state", "/d/state.2", "/d/state.new"};
+enum { INODES = 64, NAMES = 4, PENDING = 64, AT_ONCE = 48 /* bytes that a write takes */ };
+enum { FIRST_FD = 1000, FOLDER_FD = 2000 };
+static const char *const names[] = {"/d/state", "/d/state.2"};
 struct disk {
     struct inode {
         char data[GN_STATE_TEXT_MAX];
@@ -32,7 +34,8 @@ struct disk {
     int pending_count;
     int calls, cut_at, fail_at, reason; /* -1: not */
     bool dead;
-    int torn; /* after a cut, see gone_bytes() */
+    int torn; /* after a cut, see disk_read() */
+    size_t at;
 };
 
 /* False: the call has no effect, errno is set. */
@@ -43,11 +46,14 @@ static bool begin_call(struct disk *d) {
     return !d->dead && call != d->fail_at;
 }
 
+/* Both generations, and the temporary files, by the number at their end. */
 static int name_number(const char *path) {
-    for (int i = 0; i < NAMES; i++)
+    for (int i = 0; i < 2; i++)
         if (strcmp(path, names[i]) == 0) return i;
-    fail_msg("another file: %s", path);
-    return -1;
+    assert_int_equal(strncmp(path, "/d/.gnomon-", 11), 0);
+    const int number = 2 + atoi(strrchr(path, '-') + 1);
+    assert_true(number < NAMES);
+    return number;
 }
 
 static void change_folder(struct disk *d, int name, int from, int inode) {
@@ -57,18 +63,34 @@ static void change_folder(struct disk *d, int name, int from, int inode) {
     d->pending[d->pending_count++] = (struct change){name, from, inode};
 }
 
-static int disk_create(void *user, const char *path) {
+/* Reading is no call that can be cut. */
+static int disk_open(void *user, int folder, const char *path, int flags, mode_t mode) {
     struct disk *d = user;
+    (void)mode;
+    assert_int_equal(folder, AT_FDCWD);
+    if (!(flags & O_CREAT) && !(flags & O_DIRECTORY)) {
+        const int inode = d->now[name_number(path)];
+        d->at = 0;
+        errno = ENOENT;
+        return inode ? FIRST_FD + inode : -1;
+    }
     if (!begin_call(d)) return -1;
+    if (flags & O_DIRECTORY) {
+        assert_string_equal(path, "/d/");
+        return FOLDER_FD;
+    }
+    assert_true(flags & O_EXCL);
+    errno = EEXIST;
+    if (d->now[name_number(path)]) return -1;
     assert_true(d->inode_count < INODES);
     d->inodes[d->inode_count].size = d->inodes[d->inode_count].safe = 0;
     change_folder(d, name_number(path), -1, ++d->inode_count);
-    return d->inode_count;
+    return FIRST_FD + d->inode_count;
 }
 
 static ssize_t disk_write(void *user, int fd, const void *data, size_t size) {
     struct disk *d = user;
-    struct inode *inode = &d->inodes[fd - 1];
+    struct inode *inode = &d->inodes[fd - FIRST_FD - 1];
     if (!begin_call(d)) return -1;
     if (size > AT_ONCE) size = AT_ONCE;
     memcpy(inode->data + inode->size, data, size);
@@ -79,7 +101,12 @@ static ssize_t disk_write(void *user, int fd, const void *data, size_t size) {
 static int disk_fsync(void *user, int fd) {
     struct disk *d = user;
     if (!begin_call(d)) return -1;
-    d->inodes[fd - 1].safe = d->inodes[fd - 1].size;
+    if (fd == FOLDER_FD) {
+        memcpy(d->safe, d->now, sizeof d->safe);
+        d->pending_count = 0;
+    } else {
+        d->inodes[fd - FIRST_FD - 1].safe = d->inodes[fd - FIRST_FD - 1].size;
+    }
     return 0;
 }
 
@@ -88,8 +115,9 @@ static int disk_close(void *user, int fd) {
     return begin_call(user) ? 0 : -1;
 }
 
-static int disk_rename(void *user, const char *from, const char *to) {
+static int disk_rename(void *user, int folder, const char *from, const char *to) {
     struct disk *d = user;
+    (void)folder;
     if (!begin_call(d)) return -1;
     const int old = name_number(from);
     assert_true(d->now[old] > 0);
@@ -97,42 +125,38 @@ static int disk_rename(void *user, const char *from, const char *to) {
     return 0;
 }
 
-static int disk_fsync_folder(void *user, const char *path) {
+static int disk_unlink(void *user, int folder, const char *path, int flags) {
     struct disk *d = user;
+    (void)folder, (void)flags;
     if (!begin_call(d)) return -1;
-    assert_string_equal(path, names[0]);
-    memcpy(d->safe, d->now, sizeof d->safe);
-    d->pending_count = 0;
+    change_folder(d, name_number(path), -1, 0);
     return 0;
 }
 
 /* What is there of a file: once the power was cut, of what was not flushed as many eighths as
  * torn % 9 says, and after them nothing, or zeros to its end (torn from 9 on). */
-static ssize_t disk_read(void *user, const char *path, char *out, size_t size) {
-    const struct disk *d = user;
-    const int number = d->now[name_number(path)];
-    if (number == 0) {
-        errno = ENOENT;
-        return -1;
-    }
-    const struct inode *inode = &d->inodes[number - 1];
+static ssize_t disk_read(void *user, int fd, void *out, size_t size) {
+    struct disk *d = user;
+    const struct inode *inode = &d->inodes[fd - FIRST_FD - 1];
     const size_t left = inode->safe + (inode->size - inode->safe) * (size_t)(d->torn % 9) / 8;
     const size_t whole = d->torn < 9 ? left : inode->size;
-    assert_true(whole <= size);
-    memset(out, 0, whole);
-    memcpy(out, inode->data, left);
-    return (ssize_t)whole;
+    const size_t got = whole - d->at < size ? whole - d->at : size;
+    char text[GN_STATE_TEXT_MAX] = {0};
+    memcpy(text, inode->data, left);
+    memcpy(out, text + d->at, got);
+    d->at += got;
+    return (ssize_t)got;
 }
 
-static struct gn_state_files files_of(struct disk *d) {
-    return (struct gn_state_files){.user = d,
-                                   .read_file = disk_read,
-                                   .create = disk_create,
-                                   .write = disk_write,
-                                   .fsync = disk_fsync,
-                                   .close = disk_close,
-                                   .rename = disk_rename,
-                                   .fsync_folder = disk_fsync_folder};
+static struct gn_disk calls_of(struct disk *d) {
+    return (struct gn_disk){.user = d,
+                            .open = disk_open,
+                            .read = disk_read,
+                            .write = disk_write,
+                            .fsync = disk_fsync,
+                            .close = disk_close,
+                            .rename = disk_rename,
+                            .unlink = disk_unlink};
 }
 
 /* The disk after the cut, with that many of the folder's changes. */
@@ -157,12 +181,12 @@ static struct gn_state state_number(uint64_t n) {
 
 /* Saves states from 1 on, as a kiosk does, until `last`; returns the last that is on the disk. */
 static uint64_t save_until(struct disk *d, uint64_t last) {
-    const struct gn_state_files files = files_of(d);
+    const struct gn_disk calls = calls_of(d);
     int older = 0;
     uint64_t saved = 0;
     for (uint64_t n = 1; n <= last && !d->dead; n++) {
         const struct gn_state s = state_number(n);
-        if (!gn_state_save(&files, names[0], older, &s, &err)) continue;
+        if (!gn_state_save(&calls, names[0], older, &s, &err)) continue;
         saved = n;
         older = 1 - older;
     }
@@ -231,9 +255,9 @@ static void a_cut_at_any_call_leaves_the_old_or_the_new(void **state) {
                 after = disk;
                 after.torn = torn;
                 lose(&after, changes);
-                const struct gn_state_files files = files_of(&after);
+                const struct gn_disk calls = calls_of(&after);
                 const enum gn_state_found what =
-                    gn_state_read(&files, names[0], &found, &older, &err);
+                    gn_state_read(&calls, names[0], &found, &older, &err);
                 if (saved == 0 && what == GN_STATE_NONE) continue; /* the old one: nothing */
                 if (what != GN_STATE_READ)
                     fail_msg("cut before call %d, %d changes, torn %d: %s", cut, changes, torn,
@@ -246,7 +270,7 @@ static void a_cut_at_any_call_leaves_the_old_or_the_new(void **state) {
                 const struct gn_state next = state_number(found.sequence + 1);
                 const int kept = after.now[1 - older];
                 after.cut_at = -1, after.dead = false;
-                assert_true(gn_state_save(&files, names[0], older, &next, &err));
+                assert_true(gn_state_save(&calls, names[0], older, &next, &err));
                 assert_int_equal(after.now[1 - older], kept);
             }
     }
@@ -266,12 +290,12 @@ static void a_call_that_fails_loses_nothing(void **state) {
             int older;
             disk = (struct disk){.cut_at = -1, .fail_at = fail, .reason = reasons[i]};
             save_until(&disk, 3);
-            const struct gn_state_files files = files_of(&disk);
-            assert_int_equal(gn_state_read(&files, names[0], &found, &older, &err), GN_STATE_READ);
+            const struct gn_disk calls = calls_of(&disk);
+            assert_int_equal(gn_state_read(&calls, names[0], &found, &older, &err), GN_STATE_READ);
             assert_in_range(found.sequence, 2, 3);
             save_until(&disk, 5); /* it goes on once there is room */
             disk.torn = 0;
-            assert_int_equal(gn_state_read(&files, names[0], &found, &older, &err), GN_STATE_READ);
+            assert_int_equal(gn_state_read(&calls, names[0], &found, &older, &err), GN_STATE_READ);
             assert_int_equal(found.sequence, 5);
         }
 }
@@ -287,24 +311,24 @@ static void the_disk_keeps_two_generations(void **state) {
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/state", folder);
     snprintf(other, sizeof other, "%s.2", path);
-    assert_int_equal(gn_state_read(&gn_state_disk, path, &found, &older, &err), GN_STATE_NONE);
+    assert_int_equal(gn_state_read(&gn_disk, path, &found, &older, &err), GN_STATE_NONE);
     for (uint64_t n = 1; n <= 3; n++) {
         const struct gn_state s = state_number(n);
-        assert_true(gn_state_save(&gn_state_disk, path, older, &s, &err));
-        assert_int_equal(gn_state_read(&gn_state_disk, path, &found, &older, &err), GN_STATE_READ);
+        assert_true(gn_state_save(&gn_disk, path, older, &s, &err));
+        assert_int_equal(gn_state_read(&gn_disk, path, &found, &older, &err), GN_STATE_READ);
         assert_int_equal(found.sequence, n);
     }
     assert_int_equal(stat(other, &info), 0);
     assert_int_equal(truncate(path, 40), 0); /* the third */
-    assert_int_equal(gn_state_read(&gn_state_disk, path, &found, &older, &err), GN_STATE_READ);
+    assert_int_equal(gn_state_read(&gn_disk, path, &found, &older, &err), GN_STATE_READ);
     assert_int_equal(found.sequence, 2);
     assert_int_equal(older, 0);
     assert_int_equal(truncate(other, 0), 0);
-    assert_int_equal(gn_state_read(&gn_state_disk, path, &found, &older, &err), GN_STATE_BROKEN);
+    assert_int_equal(gn_state_read(&gn_disk, path, &found, &older, &err), GN_STATE_BROKEN);
     assert_non_null(strstr(err.text, "/state: its checksum is wrong"));
     assert_int_equal(gn_test_remove_folder(folder), 0);
     const struct gn_state s = state_number(1);
-    assert_false(gn_state_save(&gn_state_disk, path, 0, &s, &err));
+    assert_false(gn_state_save(&gn_disk, path, 0, &s, &err));
     assert_non_null(strstr(err.text, "cannot write: No such file"));
 }
 

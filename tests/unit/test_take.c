@@ -90,7 +90,7 @@ static const char *shown(const char *a, const char *b) {
     return version;
 }
 
-static bool take_with(const struct gn_take_files *files, const struct gn_take_limits *limits) {
+static bool take_with(const struct gn_disk *files, const struct gn_take_limits *limits) {
     struct gn_take take;
     err = (struct gn_err){0};
     bool ok = gn_take_open(&take, files, dir, limits, &err);
@@ -102,7 +102,7 @@ static bool take_with(const struct gn_take_files *files, const struct gn_take_li
     return ok;
 }
 
-static bool take_back(const struct gn_take_files *files) {
+static bool take_back(const struct gn_disk *files) {
     struct gn_take take;
     err = (struct gn_err){0};
     const bool ok = gn_take_open(&take, files, dir, NULL, &err) && gn_take_back(&take, &err);
@@ -113,7 +113,7 @@ static bool take_back(const struct gn_take_files *files) {
 static enum gn_take_found look(void) {
     struct gn_take take;
     err = (struct gn_err){0};
-    assert_true(gn_take_open(&take, &gn_take_disk, dir, NULL, &err));
+    assert_true(gn_take_open(&take, &gn_disk, dir, NULL, &err));
     const enum gn_take_found found = gn_take_look(&take, stick, &err);
     gn_take_close(&take);
     return found;
@@ -244,20 +244,20 @@ static void test_going_back_is_whole_too(void **state) {
 static void test_what_was_gone_back_from_does_not_come_again(void **state) {
     (void)state;
     prepare();
-    assert_true(take_with(&gn_take_disk, NULL));
+    assert_true(take_with(&gn_disk, NULL));
     assert_int_equal(look(), GN_TAKE_SAME);
-    assert_true(take_back(&gn_take_disk));
+    assert_true(take_back(&gn_disk));
     assert_string_equal(shown("old", "new"), "old");
     assert_int_equal(look(), GN_TAKE_BACK);
-    assert_true(take_back(&gn_take_disk));
+    assert_true(take_back(&gn_disk));
     assert_string_equal(shown("old", "new"), "new");
     fill_stick("old"); /* an older one may come back from another stick */
     assert_int_equal(look(), GN_TAKE_FRESH);
-    assert_true(take_with(&gn_take_disk, NULL));
+    assert_true(take_with(&gn_disk, NULL));
     assert_string_equal(shown("old", "new"), "old");
-    assert_true(take_back(&gn_take_disk));
+    assert_true(take_back(&gn_disk));
     fill_stick("third");
-    assert_true(take_with(&gn_take_disk, NULL));
+    assert_true(take_with(&gn_disk, NULL));
     assert_string_equal(shown("third", "new"), "third");
     assert_int_equal(count_names(versions_path()), 2);
 }
@@ -265,10 +265,10 @@ static void test_what_was_gone_back_from_does_not_come_again(void **state) {
 static void test_without_a_version_before_there_is_no_way_back(void **state) {
     (void)state;
     gn_cut_remove(dir);
-    assert_false(take_back(&gn_take_disk));
+    assert_false(take_back(&gn_disk));
     fill_stick("new");
-    assert_true(take_with(&gn_take_disk, NULL));
-    assert_false(take_back(&gn_take_disk));
+    assert_true(take_with(&gn_disk, NULL));
+    assert_false(take_back(&gn_disk));
     assert_string_equal(shown("new", "new"), "new");
 }
 
@@ -278,7 +278,7 @@ static void test_a_stick_that_changes_while_it_is_copied_is_refused(void **state
     struct gn_take take;
     (void)state;
     prepare();
-    assert_true(gn_take_open(&take, &gn_take_disk, dir, NULL, &err));
+    assert_true(gn_take_open(&take, &gn_disk, dir, NULL, &err));
     assert_int_equal(gn_take_look(&take, stick, &err), GN_TAKE_FRESH);
     change_stick();
     assert_false(gn_take_copy(&take, &err));
@@ -294,7 +294,7 @@ static void test_links_of_others_are_left_alone(void **state) {
     snprintf(path, sizeof path, "%s/current", dir);
     assert_int_equal(unlink(path), 0);
     assert_int_equal(symlink("/srv/mine", path), 0);
-    assert_false(take_with(&gn_take_disk, NULL));
+    assert_false(take_with(&gn_disk, NULL));
     assert_non_null(strstr(err.text, "not those of gnomon take"));
     assert_int_equal(count_names(versions_path()), 2);
 }
@@ -304,11 +304,11 @@ static void test_two_at_once_wait_for_each_other(void **state) {
     const struct gn_take_limits hasty = {.patience_ns = GN_NS_PER_S / 10};
     (void)state;
     prepare();
-    assert_true(gn_take_open(&take, &gn_take_disk, dir, NULL, &err));
-    assert_false(take_with(&gn_take_disk, &hasty));
+    assert_true(gn_take_open(&take, &gn_disk, dir, NULL, &err));
+    assert_false(take_with(&gn_disk, &hasty));
     assert_non_null(strstr(err.text, "another gnomon take is at work"));
     gn_take_close(&take);
-    assert_true(take_with(&gn_take_disk, &hasty));
+    assert_true(take_with(&gn_disk, &hasty));
 }
 
 /* ---- what is refused ------------------------------------------------------------------------ */
@@ -350,13 +350,13 @@ static void test_names_that_are_no_text_are_refused(void **state) {
 static void test_too_much_is_refused(void **state) {
     (void)state;
     prepare();
-    assert_false(take_with(&gn_take_disk, &(struct gn_take_limits){.files = 2}));
+    assert_false(take_with(&gn_disk, &(struct gn_take_limits){.files = 2}));
     assert_non_null(strstr(err.text, "more than 2 files"));
-    assert_false(take_with(&gn_take_disk, &(struct gn_take_limits){.bytes = 5}));
+    assert_false(take_with(&gn_disk, &(struct gn_take_limits){.bytes = 5}));
     assert_non_null(strstr(err.text, "more than 0 MB"));
-    assert_true(take_with(&gn_take_disk, &(struct gn_take_limits){.files = 4, .bytes = 9}));
+    assert_true(take_with(&gn_disk, &(struct gn_take_limits){.files = 4, .bytes = 9}));
     fill_stick("fourth");
-    assert_false(take_with(&gn_take_disk, &(struct gn_take_limits){.reserve = UINT64_C(1) << 62}));
+    assert_false(take_with(&gn_disk, &(struct gn_take_limits){.reserve = UINT64_C(1) << 62}));
     assert_non_null(strstr(err.text, "MB free"));
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%s", on_stick("1"));
@@ -378,7 +378,7 @@ static void test_one_scene_needs_no_kiosk_ini(void **state) {
     write_file(on_stick("a.bin"), "x");
     check_refused("neither a kiosk.ini nor a scene");
     write_file(on_stick("A.GLB"), "x");
-    assert_true(take_with(&gn_take_disk, NULL));
+    assert_true(take_with(&gn_disk, NULL));
     assert_true(gn_take_shown(dir, &now));
     assert_string_equal(now.ini, "");
     assert_string_equal(strrchr(now.scene, '/'), "/A.GLB");
@@ -387,7 +387,7 @@ static void test_one_scene_needs_no_kiosk_ini(void **state) {
     write_file(on_stick("kiosk.ini"), "x");
     assert_int_equal(look(), GN_TAKE_FRESH);
     write_file(on_stick("Kiosk.ini"), "x");
-    assert_false(take_with(&gn_take_disk, NULL));
+    assert_false(take_with(&gn_disk, NULL));
     assert_non_null(strstr(err.text, "differs from it only in capitals"));
     assert_int_equal(count_names(versions_path()), 2);
 }
@@ -399,7 +399,7 @@ static void test_the_folder_is_found_in_any_case(void **state) {
     snprintf(from, sizeof from, "%s/gnomon", stick);
     snprintf(to, sizeof to, "%s/GnoMon", stick);
     assert_int_equal(rename(from, to), 0);
-    assert_true(take_with(&gn_take_disk, NULL));
+    assert_true(take_with(&gn_disk, NULL));
     assert_string_equal(shown("old", "new"), "new");
     gn_cut_remove(to);
     assert_int_equal(look(), GN_TAKE_NOTHING);

@@ -166,7 +166,7 @@ static void test_a_hidden_node_hides_what_is_below_it(void **state) {
     assert_true(pose.items[0].visible && pose.items[1].visible);
     assert_near(pose.lights[0].color[0], 10);
     gn_pose_choose(&pose, 0);
-    pose.run.turns = GN_POSE_ONCE;
+    pose.at.run.turns = GN_POSE_ONCE;
     step(2);
     assert_false(pose.items[0].visible || pose.items[1].visible);
     const float dark = pose.lights[0].color[0] + pose.lights[1].color[0];
@@ -197,12 +197,12 @@ static void test_a_fade_mixes_values(void **state) {
     assert_near(pose.lights[0].color[0], 100);
     gn_pose_choose_fading(&pose, 1, -1);
     assert_near(pose.lights[0].color[0], 100);
-    pose.fade = .25f;
+    pose.at.fade = .25f;
     step(.1);
     assert_near(pose.lights[0].color[0], 80);
     gn_pose_choose_fading(&pose, GN_POSE_NONE, -1);
     assert_near(pose.lights[0].color[0], 80);
-    pose.fade = .5f;
+    pose.at.fade = .5f;
     step(.1);
     assert_near(pose.lights[0].color[0], 45); /* between 80 and the file's 10 */
 }

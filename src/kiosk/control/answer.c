@@ -84,7 +84,10 @@ static json_t *answer_action(struct gn_show *s, const struct gn_request *r, stru
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     const struct gn_ctl_row *row = &gn_ctl_rows[r->command];
     const bool turns = gn_ctl_words_least(r->command) < gn_ctl_words(r->command);
-    if (turns && !gn_turn_parse(r->words[0], row->name, &action.turn, err)) return NULL;
+    if (turns && !gn_turn_parse(r->words[0], &action.turn, err)) {
+        gn_fail_prefix(err, "%s", row->name);
+        return NULL;
+    }
     if (!gn_show_check_action(s, &action, err)) return NULL;
     const bool was_dark = s->kiosk.blanked;
     gn_show_act(s, &action, now_ns);

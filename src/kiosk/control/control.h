@@ -15,7 +15,7 @@ enum {
     GN_CONTROL_CLIENTS_MAX = 64, /* another one replaces a client that was silent for 30 s, else it
                                     gets "busy" and is closed */
     GN_CONTROL_USER_MAX = 16,    /* of these for a user other than root and the kiosk's */
-    GN_CONTROL_KEPT = 8,         /* of these for root alone, and as many for the kiosk's user */
+    GN_CONTROL_KEPT = 8,         /* of these for root and the kiosk's user */
     GN_CONTROL_PER_STEP = 16,    /* lines handled, or pieces of 4 KiB discarded */
     GN_CONTROL_CHANGES_PER_S = 20, /* commands that may cost a frame, with a burst of 20; more are
                                       "busy". Of root and the kiosk's user; and as many of all
@@ -33,7 +33,6 @@ struct gn_control;
  * without, and err says why. */
 struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struct gn_err *err);
 void gn_control_close(struct gn_control *control); /* NULL is legal */
-const char *gn_control_path(const struct gn_control *control);
 struct gn_control_counts gn_control_counts(const struct gn_control *control);
 
 /* The next request, or NULL; to be called after each step of the loop until it is. It lives until

@@ -1,13 +1,14 @@
 #include "kiosk/control/passed.h"
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include "core/thread.h"
 
 /* While more closing threads wait, descriptors are not received: then the kernel drops them, which
  * waits for nobody, since no process has had them. */
@@ -21,14 +22,9 @@ static void *close_in_thread(void *user) {
 }
 
 static void close_aside(int fd) {
-    pthread_attr_t attributes;
-    pthread_t thread;
+    void *argument = (void *)(intptr_t)fd;
     atomic_fetch_add(&threads, 1);
-    pthread_attr_init(&attributes);
-    pthread_attr_setdetachstate(&attributes, PTHREAD_CREATE_DETACHED);
-    if (pthread_create(&thread, &attributes, close_in_thread, (void *)(intptr_t)fd) != 0)
-        close_in_thread((void *)(intptr_t)fd);
-    pthread_attr_destroy(&attributes);
+    if (gn_thread_start_detached(close_in_thread, argument) != 0) close_in_thread(argument);
 }
 
 void gn_passed_close(int fd) {

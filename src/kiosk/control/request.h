@@ -12,7 +12,6 @@
 #define GN_REQUEST_DEPTH_MAX 4    /* brackets in brackets */
 
 struct gn_request {
-    uint64_t from; /* the client; private to the server */
     enum gn_ctl command;
     const char *words[GN_CTL_WORDS_MAX]; /* as gn_ctl_rows has them, else NULL; in text */
     int fd; /* passed along with it, for commands with GN_CTL_FILE; -1: none. The server's */

@@ -91,7 +91,7 @@ static bool read_stream(struct gn_gltf *g, const struct gn_at *at, struct gn_mes
 
 bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at, struct gn_view *view) {
     struct gn_at at = {0};
-    for (size_t i = 0; i < 2 && !at.json; i++) at = gn_at_extension(g, view_at, paths[i]);
+    for (size_t i = 0; i < 2 && !at.json; i++) at = gn_at_object(g, view_at, paths[i]);
     struct gn_meshopt_stream stream = {0};
     if (!at.json || !gn_meshopt_is_read()) return !g->failed;
     if (!gn_gltf_check_time(g) || !read_stream(g, &at, &stream)) return false;

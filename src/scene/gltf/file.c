@@ -132,19 +132,15 @@ bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size) {
 
 /* ---- versions and extensions ---- */
 
+/* Beside those that properties of materials belong to (scene/property.h). */
 static const char *const SUPPORTED[] = {
     "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "EXT_mesh_gpu_instancing",
     "MOZ_lightmap",
-    "KHR_materials_ior",
-    "KHR_materials_specular",
     "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_clearcoat",
-    "KHR_materials_transmission",
     "EXT_texture_webp",
     "KHR_texture_basisu",
     "KHR_materials_variants",
@@ -161,7 +157,12 @@ static const struct cure {
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 
-static bool is_supported(const char *name) {
+bool gn_gltf_supports(const char *name) {
+    char extension[80];
+    for (size_t i = 0; i < gn_material_property_count; i++)
+        if (sscanf(gn_material_properties[i].path, "extensions.%79[^.]", extension) == 1 &&
+            strcmp(extension, name) == 0)
+            return true;
     for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
         if (strcmp(SUPPORTED[i], name) == 0) return true;
     return (strcmp(name, "EXT_meshopt_compression") == 0 ||
@@ -208,7 +209,7 @@ bool gn_gltf_check_support(struct gn_gltf *g) {
         if (!name) return gn_gltf_fail(g, &at, "must be a string");
         for (size_t k = 0; k < sizeof CURES / sizeof CURES[0]; k++)
             if (strcmp(CURES[k].extension, name) == 0) cure = CURES[k].what_to_do;
-        if (!is_supported(name))
+        if (!gn_gltf_supports(name))
             return gn_gltf_fail(g, &at, "%.80s is not supported; %s", name, cure);
     }
     return !g->failed;

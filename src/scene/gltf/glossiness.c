@@ -4,12 +4,9 @@
 
 #include <math.h>
 
-enum { SAMPLES = 65536 }; /* of the mean */
+#include "core/srgb.h"
 
-static float linear_from_srgb(uint8_t code) {
-    const float c = (float)code / 255;
-    return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
-}
+enum { SAMPLES = 65536 }; /* of the mean */
 
 static void find_mean(const struct gn_image *image, float mean[3]) {
     const uint64_t texels = (uint64_t)image->width_px * image->height_px;
@@ -17,7 +14,7 @@ static void find_mean(const struct gn_image *image, float mean[3]) {
     float linear[256];
     double sum[3] = {0};
     uint64_t count = 0;
-    for (int i = 0; i < 256; i++) linear[i] = linear_from_srgb((uint8_t)i);
+    for (int i = 0; i < 256; i++) linear[i] = gn_srgb_decode((float)i / 255);
     for (uint64_t i = 0; i < texels; i += step, count++)
         for (int k = 0; k < 3; k++) sum[k] += (double)linear[image->rgba[4 * i + (uint64_t)k]];
     for (int k = 0; k < 3; k++) mean[k] = (float)(sum[k] / (double)count);

@@ -30,7 +30,7 @@ static struct copies read_copies(struct gn_gltf *g, const struct gn_placed *plac
     struct copies copies = {0};
     struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
     struct gn_at node = gn_at_element(&nodes, placed->json);
-    struct gn_at extension = gn_at_extension(g, &node, "extensions.EXT_mesh_gpu_instancing");
+    struct gn_at extension = gn_at_object(g, &node, "extensions.EXT_mesh_gpu_instancing");
     struct gn_at attributes = gn_at_object(g, &extension, "attributes");
     if (!extension.json || g->failed) return copies;
     copies.translation = read_attribute(g, &attributes, "TRANSLATION", 3, &copies);

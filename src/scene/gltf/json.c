@@ -57,6 +57,10 @@ static json_t *load_json(const char *text, size_t size, json_error_t *error) {
 
 bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     if (!check_json_size(g, text, size, offset)) return false;
+    size_t zeros = 0; /* padding, and ends of C strings, that some exporters write with the text */
+    while (zeros < size && !text[size - zeros - 1]) zeros++;
+    if (zeros > 0) gn_gltf_warn(g, NULL, "%zu zero bytes after the JSON ignored", zeros);
+    size -= zeros;
     json_error_t error;
     g->file.json = load_json(text, size, &error);
     if (!g->file.json) {
@@ -95,14 +99,30 @@ struct gn_at gn_at_any(const struct gn_at *up, const char *key) {
     return (struct gn_at){.up = up, .key = key, .json = json_object_get(up->json, key)};
 }
 
-struct gn_at gn_at_object(struct gn_gltf *g, const struct gn_at *up, const char *key) {
-    struct gn_at at = gn_at_any(up, key);
+/* The value at a path. */
+static struct gn_at find_value(struct gn_gltf *g, const struct gn_at *up, const char *path) {
+    struct gn_at at = {.up = up, .key = path, .json = up->json};
+    const char *name = path;
+    for (const char *dot; (dot = strchr(name, '.')) && at.json; name = dot + 1) {
+        char key[128];
+        snprintf(key, sizeof key, "%.*s", (int)(dot - name), name);
+        at.json = json_object_get(at.json, key);
+        snprintf(key, sizeof key, "%.*s", (int)(dot - path), path);
+        struct gn_at part = {.up = up, .key = key, .json = at.json};
+        if (at.json && !json_is_object(at.json)) fail_type(g, &part, "an object");
+    }
+    at.json = json_object_get(at.json, name);
+    return at;
+}
+
+struct gn_at gn_at_object(struct gn_gltf *g, const struct gn_at *up, const char *path) {
+    struct gn_at at = find_value(g, up, path);
     check_type(g, &at, json_is_object(at.json), "an object");
     return at;
 }
 
-struct gn_at gn_at_array(struct gn_gltf *g, const struct gn_at *up, const char *key) {
-    struct gn_at at = gn_at_any(up, key);
+struct gn_at gn_at_array(struct gn_gltf *g, const struct gn_at *up, const char *path) {
+    struct gn_at at = find_value(g, up, path);
     check_type(g, &at, json_is_array(at.json), "an array");
     return at;
 }
@@ -113,14 +133,6 @@ struct gn_at gn_at_element(const struct gn_at *array, size_t index) {
 
 struct gn_at gn_at_item(struct gn_gltf *g, const struct gn_at *array, size_t index) {
     struct gn_at at = gn_at_element(array, index);
-    check_type(g, &at, json_is_object(at.json), "an object");
-    return at;
-}
-
-struct gn_at gn_at_extension(struct gn_gltf *g, const struct gn_at *up, const char *key) {
-    struct gn_at all = gn_at_object(g, up, "extensions");
-    struct gn_at at = {.up = up, .key = key};
-    at.json = json_object_get(all.json, key + strlen("extensions."));
     check_type(g, &at, json_is_object(at.json), "an object");
     return at;
 }
@@ -149,20 +161,21 @@ int gn_json_word(const json_t *json, const char *const *names, int count) {
     return -1;
 }
 
-const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *key) {
-    struct gn_at at = gn_at_any(up, key);
+const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *path) {
+    struct gn_at at = find_value(g, up, path);
     return check_type(g, &at, json_is_string(at.json), "a string") ? json_string_value(at.json)
                                                                    : NULL;
 }
 
-bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *key, bool fallback) {
-    struct gn_at at = gn_at_any(up, key);
+bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *path, bool fallback) {
+    struct gn_at at = find_value(g, up, path);
     return check_type(g, &at, json_is_boolean(at.json), "true or false") ? json_is_true(at.json)
                                                                          : fallback;
 }
 
-uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, uint64_t fallback) {
-    struct gn_at at = gn_at_any(up, key);
+uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *path,
+                    uint64_t fallback) {
+    struct gn_at at = find_value(g, up, path);
     int64_t value = 0;
     if (!check_type(g, &at, json_is_number(at.json), "an integer")) return fallback;
     if (!gn_json_whole(at.json, &value)) {
@@ -186,23 +199,27 @@ static bool read_float(struct gn_gltf *g, struct gn_at *at, float *out) {
     return true;
 }
 
-float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *key, float fallback) {
-    struct gn_at at = gn_at_any(up, key);
+float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *path, float fallback) {
+    struct gn_at at = find_value(g, up, path);
     float value = fallback;
     return read_float(g, &at, &value) ? value : fallback;
 }
 
-bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t n,
-                  float *out) {
-    struct gn_at array = gn_at_array(g, up, key);
-    if (!array.json) return false;
-    if (gn_at_size(&array) != n)
-        return gn_gltf_fail(g, &array, "must have %zu numbers, has %zu", n, gn_at_size(&array));
-    for (size_t i = 0; i < n; i++) {
-        struct gn_at at = gn_at_element(&array, i);
+bool gn_at_first_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, float *out) {
+    for (size_t i = 0; i < n && i < gn_at_size(array); i++) {
+        struct gn_at at = gn_at_element(array, i);
         if (!read_float(g, &at, &out[i])) return false;
     }
     return true;
+}
+
+bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t n,
+                  float *out) {
+    struct gn_at array = gn_at_array(g, up, path);
+    if (!array.json) return false;
+    if (gn_at_size(&array) != n)
+        return gn_gltf_fail(g, &array, "must have %zu numbers, has %zu", n, gn_at_size(&array));
+    return gn_at_first_floats(g, &array, n, out);
 }
 
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what) {
@@ -218,8 +235,8 @@ int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, 
     return -1;
 }
 
-int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t count,
+int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t count,
                   const char *what) {
-    struct gn_at at = gn_at_any(up, key);
+    struct gn_at at = find_value(g, up, path);
     return gn_at_ref_here(g, &at, count, what);
 }

@@ -22,24 +22,26 @@ bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offs
 
 struct gn_at gn_at_root(const struct gn_gltf *g);
 struct gn_at gn_at_any(const struct gn_at *up, const char *key);
-/* Absent gives an empty cursor; the wrong type fails. */
-struct gn_at gn_at_object(struct gn_gltf *g, const struct gn_at *up, const char *key);
-struct gn_at gn_at_array(struct gn_gltf *g, const struct gn_at *up, const char *key);
+/* path: a key, or keys with dots between: "normalTexture.scale"; it must outlive the cursor. Absent
+ * gives an empty cursor; the wrong type, also of a part of the path, fails. */
+struct gn_at gn_at_object(struct gn_gltf *g, const struct gn_at *up, const char *path);
+struct gn_at gn_at_array(struct gn_gltf *g, const struct gn_at *up, const char *path);
 struct gn_at gn_at_element(const struct gn_at *array, size_t index);
 struct gn_at gn_at_item(struct gn_gltf *g, const struct gn_at *array, size_t index); /* an object */
-/* key is written "extensions.NAME", as the messages show it. */
-struct gn_at gn_at_extension(struct gn_gltf *g, const struct gn_at *up, const char *key);
 size_t gn_at_size(const struct gn_at *array);
 
 const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up,
-                       const char *key); /* NULL if absent */
-bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *key, bool fallback);
-uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *key, uint64_t fallback);
-float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *key, float fallback);
+                       const char *path); /* NULL if absent */
+bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *path, bool fallback);
+uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *path, uint64_t fallback);
+float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *path, float fallback);
 /* Exactly n numbers into out, which stays as it is if there are none; true if there were. */
-bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t n, float *out);
+bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t n,
+                  float *out);
+/* The first n numbers of an array, or as many as it has; false: one is none. */
+bool gn_at_first_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, float *out);
 /* An index below count, or -1 if absent or wrong; what: plural, for the message. */
-int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *key, size_t count,
+int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t count,
                   const char *what);
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what);
 /* A finite number; a whole one below 2^63 (all numbers are reals here). False without a failure of

@@ -18,24 +18,12 @@ static struct gn_uv_record read_transform(struct gn_gltf *g, const struct gn_at 
 /* The set and the transform of its coordinates, as an affine map. */
 static uint64_t read_uv(struct gn_gltf *g, const struct gn_at *at, float *m, bool *transformed) {
     uint64_t uv_set = gn_at_uint(g, at, "texCoord", 0);
-    struct gn_at transform = gn_at_extension(g, at, "extensions.KHR_texture_transform");
+    struct gn_at transform = gn_at_object(g, at, "extensions.KHR_texture_transform");
     *transformed = transform.json != NULL;
     if (!transform.json) return uv_set;
     const struct gn_uv_record record = read_transform(g, &transform);
     gn_uv_make(&record, m);
     return gn_at_uint(g, &transform, "texCoord", uv_set);
-}
-
-/* The texture of a slot in the JSON of a material. */
-static struct gn_at texture_at(struct gn_gltf *g, const struct gn_at *material,
-                               enum gn_texture_slot slot, struct gn_at *parent) {
-    const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-    if (strncmp(row->key, "extensions.", 11) == 0) return gn_at_extension(g, material, row->key);
-    if (strncmp(row->parent, "extensions.", 11) == 0)
-        *parent = gn_at_extension(g, material, row->parent);
-    else
-        *parent = *row->parent ? gn_at_object(g, material, row->parent) : *material;
-    return gn_at_object(g, parent, row->key);
 }
 
 static int find_uv_set(const uint64_t sets[GN_UV_SETS], uint64_t set) {
@@ -53,12 +41,12 @@ void gn_gltf_uv_sets(struct gn_gltf *g, int32_t material, uint64_t sets[GN_UV_SE
     sets[1] = 1;
     if (material < 0 || g->failed) return;
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
-    struct gn_at at = gn_at_item(g, &materials, (size_t)material), parent;
-    struct gn_at gloss = gn_at_extension(g, &at, GLOSSINESS);
+    struct gn_at at = gn_at_item(g, &materials, (size_t)material);
+    struct gn_at gloss = gn_at_object(g, &at, GLOSSINESS);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT && !g->failed; slot++) {
-        struct gn_at texture = gloss.json && slot == GN_TEXTURE_BASE
-                                   ? gn_at_object(g, &gloss, "diffuseTexture")
-                                   : texture_at(g, &at, slot, &parent);
+        const bool diffuse = gloss.json && slot == GN_TEXTURE_BASE;
+        struct gn_at texture = gn_at_object(
+            g, diffuse ? &gloss : &at, diffuse ? "diffuseTexture" : gn_texture_slots[slot].path);
         if (!texture.json) continue;
         const uint64_t set = read_uv(g, &texture, m, &transformed);
         bool known = false;
@@ -101,31 +89,15 @@ static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
 }
 
 void gn_material_init(struct gn_material *m) {
+    struct gn_material_record record;
+    gn_material_record_init(&record);
+    gn_material_make(&record, ~(uint32_t)GN_MOVES_UV, m);
     m->name = "";
-    glm_vec4_one(m->base_color);
-    m->roughness = m->metalness = m->occlusion_strength = m->normal_scale = m->lightmap_intensity =
-        1;
-    glm_vec3_copy((vec3){GN_F0, GN_F0, GN_F0}, m->f0);
-    m->alpha_cutoff = .5f;
+    m->lightmap_intensity = 1;
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++) {
         m->textures[i].texture = -1;
         m->textures[i].uv_from_uv[0] = m->textures[i].uv_from_uv[3] = 1;
     }
-}
-
-/* KHR_materials_ior and KHR_materials_specular: the reflectance of what is no metal. */
-static void read_f0(struct gn_gltf *g, const struct gn_at *at, bool used, struct gn_material *m) {
-    struct gn_at refracts = gn_at_extension(g, at, "extensions.KHR_materials_ior");
-    struct gn_at specular = gn_at_extension(g, at, "extensions.KHR_materials_specular");
-    float f0 = GN_F0, color[3] = {1, 1, 1};
-    if (gn_at_any(&refracts, "ior").json) {
-        f0 = gn_f0_of_ior(clamp(gn_at_float(g, &refracts, "ior", 1.5f), 0, 1e4f));
-    }
-    gn_at_floats(g, &specular, "specularColorFactor", 3, color);
-    gn_f0_make(f0, gn_at_float(g, &specular, "specularFactor", 1), color, m->f0);
-    if (used && (gn_at_any(&specular, "specularTexture").json ||
-                 gn_at_any(&specular, "specularColorTexture").json))
-        g->is_missing[GN_MISSING_SPECULAR_TEXTURES] = true;
 }
 
 /* KHR_materials_pbrSpecularGlossiness: no metal, but any reflectance, of a texture its mean; what
@@ -160,13 +132,14 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
         m->f0[k] = clamp(specular[k], 0, 1);
         most = fmaxf(most, m->f0[k]);
     }
-    for (int k = 0; k < 3; k++) m->base_color[k] *= 1 - most;
+    for (int k = 0; k < 3; k++) m->base_color[k] = clamp(m->base_color[k] * (1 - most), 0, 1e4f);
+    m->base_color[3] = clamp(m->base_color[3], 0, 1);
 }
 
-/* Of a volume the colour alone, once over its thickness
- * at most: where that comes from a texture, and how long the way of the light is, is unknown. */
+/* The colour of a volume alone, over its thickness at most: where that comes from a texture, and
+ * how long the way of the light is, is unknown. Returns the thickness. */
 static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3]) {
-    struct gn_at volume = gn_at_extension(g, at, "extensions.KHR_materials_volume");
+    struct gn_at volume = gn_at_object(g, at, "extensions.KHR_materials_volume");
     float color[3] = {1, 1, 1};
     const float thickness = gn_at_float(g, &volume, "thicknessFactor", 0);
     const float distance = gn_at_float(g, &volume, "attenuationDistance", INFINITY);
@@ -176,74 +149,53 @@ static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3])
     return thickness;
 }
 
-/* KHR_materials_clearcoat and _transmission. */
-static void read_coat_and_transmission(struct gn_gltf *g, const struct gn_at *at, bool used,
-                                       struct gn_material *m) {
-    struct gn_at coat = gn_at_extension(g, at, GN_CLEARCOAT);
-    struct gn_at transmits = gn_at_extension(g, at, GN_TRANSMITS);
-    float tint[3];
-    m->coat = clamp(gn_at_float(g, &coat, "clearcoatFactor", 0), 0, 1);
-    m->coat_roughness = clamp(gn_at_float(g, &coat, "clearcoatRoughnessFactor", 0), 0, 1);
-    m->transmission = clamp(gn_at_float(g, &transmits, "transmissionFactor", 0), 0, 1);
-    const float thickness = read_tint(g, at, tint);
-    if (m->unlit) m->coat = m->transmission = 0;
-    for (int k = 0; k < 3; k++) m->base_color[k] *= glm_lerp(1, tint[k], m->transmission);
-    if (used && m->transmission > 0 && thickness > 0) g->is_missing[GN_MISSING_VOLUME] = true;
-    if (used && m->coat > 0 && gn_at_any(&coat, "clearcoatNormalTexture").json)
-        g->is_missing[GN_MISSING_COAT_NORMALS] = true;
-}
-
 /* Leaves out the last ones of too many. */
 static void limit_textures(struct gn_gltf *g, const struct gn_at *at, struct gn_material *m) {
     int count = 0;
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         if (m->textures[slot].texture < 0 || ++count <= GN_MATERIAL_TEXTURES_MAX) continue;
+        const char *path = gn_texture_slots[slot].path, *dot = strrchr(path, '.');
         gn_gltf_warn(g, at, "more than %d textures; shown without the %s", GN_MATERIAL_TEXTURES_MAX,
-                     gn_texture_slots[slot].key);
+                     dot ? dot + 1 : path);
         m->textures[slot].texture = -1;
     }
 }
 
-/* As a clip changes it. */
-static void fill_record(struct gn_gltf *g, const struct gn_at *at, struct gn_material_record *r) {
-    struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
-    struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
-    struct gn_at refracts = gn_at_extension(g, at, "extensions.KHR_materials_ior");
-    struct gn_at specular = gn_at_extension(g, at, "extensions.KHR_materials_specular");
-    struct gn_at coat = gn_at_extension(g, at, GN_CLEARCOAT);
-    struct gn_at transmits = gn_at_extension(g, at, GN_TRANSMITS);
-    struct gn_at normal = gn_at_object(g, at, "normalTexture");
-    struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
-    *r = (struct gn_material_record){.base_color = {1, 1, 1, 1}, .specular_color = {1, 1, 1}};
-    gn_at_floats(g, &pbr, "baseColorFactor", 4, r->base_color);
-    r->metalness = gn_at_float(g, &pbr, "metallicFactor", 1);
-    r->roughness = gn_at_float(g, &pbr, "roughnessFactor", 1);
-    gn_at_floats(g, at, "emissiveFactor", 3, r->emissive);
-    r->emissive_strength = gn_at_float(g, &strong, "emissiveStrength", 1);
-    r->alpha_cutoff = gn_at_float(g, at, "alphaCutoff", .5f);
-    r->normal_scale = gn_at_float(g, &normal, "scale", 1);
-    r->occlusion_strength = gn_at_float(g, &occlusion, "strength", 1);
-    r->ior = gn_at_float(g, &refracts, "ior", 1.5f);
-    r->specular = gn_at_float(g, &specular, "specularFactor", 1);
-    gn_at_floats(g, &specular, "specularColorFactor", 3, r->specular_color);
-    r->coat = gn_at_float(g, &coat, "clearcoatFactor", 0);
-    r->coat_roughness = gn_at_float(g, &coat, "clearcoatRoughnessFactor", 0);
-    r->transmission = gn_at_float(g, &transmits, "transmissionFactor", 0);
-    read_tint(g, at, r->tint);
-    for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        struct gn_at parent, texture = texture_at(g, at, slot, &parent);
-        struct gn_at transform = gn_at_extension(g, &texture, "extensions.KHR_texture_transform");
-        r->uv[slot] = read_transform(g, &transform);
+static void read_record(struct gn_gltf *g, const struct gn_at *at, struct gn_material_record *r) {
+    gn_material_record_init(r);
+    for (size_t i = 0; i < gn_material_property_count; i++) {
+        const struct gn_property *p = &gn_material_properties[i];
+        float *to = (float *)r + p->first;
+        if (p->components == 1)
+            *to = gn_at_float(g, at, p->path, p->fallback);
+        else
+            gn_at_floats(g, at, p->path, p->components, to);
     }
 }
 
-/* What a clip may change of a material decides how it is read. */
-static void init_moves(struct gn_gltf *g, const struct gn_at *at, size_t index,
-                       struct gn_material *m) {
-    struct gn_material_record *r = gn_gltf_record(g, GN_THING_MATERIAL, index, &m->record);
+/* The numbers of a material. What a clip may change of it decides how it is read. */
+static void read_properties(struct gn_gltf *g, const struct gn_at *at, size_t index, bool used,
+                            struct gn_material *m) {
+    struct gn_material_record own, *r = gn_gltf_record(g, GN_THING_MATERIAL, index, &m->record);
+    if (!r) r = &own;
+    read_record(g, at, r);
+    const float thickness = read_tint(g, at, r->tint);
     m->moves = g->to_scene.moves[index];
-    if (m->unlit) m->moves &= ~(uint32_t)(GN_MOVES_COAT | GN_MOVES_TRANSMISSION);
-    if (r) fill_record(g, at, r);
+    if (m->unlit) {
+        m->moves &= ~(uint32_t)GN_MOVES_LAYERS;
+        memset(r->factors, 0, sizeof r->factors);
+    }
+    gn_material_make(r, ~(uint32_t)GN_MOVES_UV, m);
+    for (int slot = 0; m->record && slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        struct gn_at texture = gn_at_object(g, at, gn_texture_slots[slot].path);
+        struct gn_at transform = gn_at_object(g, &texture, "extensions.KHR_texture_transform");
+        r->uv[slot] = read_transform(g, &transform);
+    }
+    struct gn_at coat = gn_at_object(g, at, GN_CLEARCOAT);
+    if (used && m->factors[GN_FACTOR_TRANSMISSION] > 0 && thickness > 0)
+        g->is_missing[GN_MISSING_VOLUME] = true;
+    if (used && m->factors[GN_FACTOR_COAT] > 0 && gn_at_any(&coat, "clearcoatNormalTexture").json)
+        g->is_missing[GN_MISSING_COAT_NORMALS] = true;
 }
 
 static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t index, bool used,
@@ -253,8 +205,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
     gn_material_init(m);
     m->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
-    m->unlit = gn_at_extension(g, at, "extensions.KHR_materials_unlit").json != NULL;
-    init_moves(g, at, index, m);
+    m->unlit = gn_at_object(g, at, "extensions.KHR_materials_unlit").json != NULL;
     const char *alpha = gn_at_text(g, at, "alphaMode");
     struct gn_at alpha_at = gn_at_any(at, "alphaMode");
     int word = gn_json_word(alpha_at.json, alphas, 3);
@@ -263,40 +214,25 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
     else if (alpha)
         gn_gltf_warn(g, &alpha_at, "'%.20s' is none of OPAQUE, MASK, BLEND; taken as OPAQUE",
                      alpha);
-    m->alpha_cutoff = clamp(gn_at_float(g, at, "alphaCutoff", .5f), 0, 2);
-
-    struct gn_at pbr = gn_at_object(g, at, "pbrMetallicRoughness");
-    gn_at_floats(g, &pbr, "baseColorFactor", 4, m->base_color);
-    m->roughness = clamp(gn_at_float(g, &pbr, "roughnessFactor", 1), 0, 1);
-    m->metalness = clamp(gn_at_float(g, &pbr, "metallicFactor", 1), 0, 1);
-    struct gn_at strong = gn_at_extension(g, at, "extensions.KHR_materials_emissive_strength");
-    float strength = gn_at_float(g, &strong, "emissiveStrength", 1);
-    gn_at_floats(g, at, "emissiveFactor", 3, m->emissive);
-    gn_emissive_make(m->emissive, strength, m->emissive);
-
-    struct gn_at occlusion = gn_at_object(g, at, "occlusionTexture");
-    m->occlusion_strength = clamp(gn_at_float(g, &occlusion, "strength", 1), 0, 1);
-    read_coat_and_transmission(g, at, used, m);
+    read_properties(g, at, index, used, m);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        struct gn_at parent, texture = texture_at(g, at, slot, &parent);
-        const bool needless = (slot == GN_TEXTURE_TRANSMISSION || slot == GN_TEXTURE_COAT ||
-                               slot == GN_TEXTURE_COAT_ROUGHNESS) &&
-                              !gn_material_reads(m, slot);
+        struct gn_at texture = gn_at_object(g, at, gn_texture_slots[slot].path);
+        const bool needless =
+            gn_texture_slots[slot].shading >= GN_SHADING_LAYERS && !gn_material_reads(m, slot);
         read_texture(g, &texture, used && !needless, sets, kind_of(slot), &m->textures[slot]);
     }
-    struct gn_at gloss = gn_at_extension(g, at, GLOSSINESS);
+    struct gn_at gloss = gn_at_object(g, at, GLOSSINESS);
+    struct gn_at specular = gn_at_object(g, at, "extensions.KHR_materials_specular");
     if (gloss.json)
         read_glossiness(g, &gloss, used, sets, m);
-    else
-        read_f0(g, at, used, m);
-    for (int k = 0; k < 4; k++) m->base_color[k] = clamp(m->base_color[k], 0, k < 3 ? 1e4f : 1);
+    else if (used && (gn_at_any(&specular, "specularTexture").json ||
+                      gn_at_any(&specular, "specularColorTexture").json))
+        g->is_missing[GN_MISSING_SPECULAR_TEXTURES] = true;
     if (used) gn_missing_of_material(g, at);
-    struct gn_at baked = gn_at_extension(g, at, "extensions.MOZ_lightmap");
-    m->lightmap_intensity = clamp(gn_at_float(g, &baked, "intensity", 1), 0, 1e9f);
+    m->lightmap_intensity =
+        clamp(gn_at_float(g, at, "extensions.MOZ_lightmap.intensity", 1), 0, 1e9f);
     if (used) gn_extras_material(g, at, find_uv_set(sets, 1), m);
     limit_textures(g, at, m);
-    struct gn_at normal = gn_at_object(g, at, "normalTexture");
-    m->normal_scale = clamp(gn_at_float(g, &normal, "scale", 1), -1e4f, 1e4f);
 }
 
 /* ---- tangents ---- */
@@ -313,7 +249,7 @@ int32_t gn_gltf_tangents(struct gn_gltf *g, int32_t material) {
     float m[6];
     bool transformed = false;
     struct gn_at above[3], at = normal_texture(g, above, material);
-    if (!at.json || gn_at_extension(g, &above[2], "extensions.KHR_materials_unlit").json)
+    if (!at.json || gn_at_object(g, &above[2], "extensions.KHR_materials_unlit").json)
         return GN_TANGENTS_NONE;
     uint64_t sets[GN_UV_SETS];
     gn_gltf_uv_sets(g, material, sets);

@@ -48,7 +48,7 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         out[i] = gn_at_ref(g, &attributes, semantics[i], g->file.accessor_count, "accessors");
     if (!with_tangents || out[GN_ATTRIBUTE_NORMAL] < 0) out[GN_ATTRIBUTE_TANGENT] = -1;
     choose_joints(g, primitive, with_skin, out);
-    struct gn_at draco = gn_at_extension(g, primitive, "extensions.KHR_draco_mesh_compression");
+    struct gn_at draco = gn_at_object(g, primitive, "extensions.KHR_draco_mesh_compression");
     const struct gn_accessor *positions = gn_gltf_accessor(g, out[GN_ATTRIBUTE_POSITION]);
     if (g->failed) return 0;
     if (draco.json && positions && !positions->backed) {
@@ -145,6 +145,14 @@ static bool read_targets(const struct reader *reader, const struct gn_at *primit
     if (mesh->target_count > 0 && mesh->target_count != count)
         return gn_gltf_fail(g, &targets, "%zu, but another primitive has %" PRIu32, count,
                             mesh->target_count);
+    for (size_t i = 0; i < count; i++) {
+        const char *name;
+        json_t *accessor;
+        json_object_foreach(json_array_get(targets.json, i), name, accessor) {
+            if (strncmp(name, "TEXCOORD_", 9) == 0 || strncmp(name, "COLOR_", 6) == 0)
+                g->is_missing[GN_MISSING_MORPHED_COLORS] = true;
+        }
+    }
     mesh->target_count = (uint32_t)count;
     shape->targets = (int32_t)reader->shape_count + 1;
     return true;
