@@ -1,20 +1,21 @@
 /* The kiosk, inside: its state in parts, and what its files call of each other. The files stand
- * from the top to the bottom: each calls only those after it. */
+ * from the top to the bottom, in the order of README.md: each calls only those after it. Some have
+ * headers of their own. */
 #ifndef GN_KIOSK_PRIVATE_H
 #define GN_KIOSK_PRIVATE_H
 
 #include <limits.h>
 
-#include "caption/captions.h"
 #include "core/loop.h"
 #include "kiosk/control/answer.h"
-#include "kiosk/info_page.h"
 #include "kiosk/latency.h"
-#include "kiosk/machine.h"
+#include "kiosk/modes.h"
 #include "kiosk/part.h"
+#include "kiosk/reload.h"
 #include "kiosk/screenshot.h"
 #include "kiosk/show.h"
 #include "kiosk/split.h"
+#include "kiosk/text.h"
 #include "kiosk/truth.h"
 #include "kiosk/turntable.h"
 #include "kiosk/viewer.h"
@@ -56,18 +57,6 @@ struct gn_show_hand { /* of who turns the view */
     bool holds; /* the window's left button */
     bool wakes; /* a touch of a dark screen, in this step */
 };
-/* Modes: those of the INI file, else the techniques. */
-struct gn_show_modes {
-    int count, first;
-    const char *names[GN_KIOSK_MODES_MAX];
-    int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
-    int base;                         /* the one without settings of its own; -1: none */
-};
-/* Of one scene, for each mode: how it is drawn, and about its programs. */
-struct gn_show_looks {
-    struct gn_stage_look of[GN_KIOSK_MODES_MAX];
-    uint32_t ready, made; /* bits 1 << mode: they are there; they were made at least once */
-};
 struct gn_show_scenes {
     const char *paths[GN_KIOSK_SCENES_MAX]; /* NULL: the default scene */
     int count, listed;                      /* the first `listed` are those of next-scene */
@@ -81,39 +70,6 @@ struct gn_show_scenes {
     struct gn_show_looks looks; /* of the staged scene; a reload's has one, at 0 */
 };
 
-/* A reload, and the first load: its scene loads while frames go on. */
-enum { GN_SHOW_RELOAD = GN_KIOSK_SCENES_MAX /* the number of its scene */, GN_SHOW_WHY = 512 };
-enum gn_reload_cause {
-    GN_RELOAD_ASKED, /* SIGHUP, ctl reload */
-    GN_RELOAD_FILE,  /* ctl scene and rollback: a failure is told to the client alone */
-    GN_RELOAD_DROP,  /* a file dropped onto the window: a caption has a failure for a while */
-    GN_RELOAD_SEEN,  /* a file that is shown has changed: likewise */
-};
-struct gn_show_wish { /* the reload that the next step begins, once `reloads` is set */
-    enum gn_reload_cause cause;
-    char file[PATH_MAX]; /* of GN_RELOAD_FILE; "": the options' scenes */
-};
-struct gn_show_reload {
-    struct gn_options *options; /* read; NULL: none */
-    struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
-    const char *file;           /* as in gn_show_config */
-    enum gn_reload_cause cause;
-    int scene;             /* of the list of next-scene, where the mode names none */
-    bool first;            /* there is nothing to go back to */
-    bool alone;            /* its scene did not fit on the GPU beside the one that is shown */
-    char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
-};
-
-/* Texts on the picture. */
-struct gn_show_text {
-    struct gn_captions *captions;
-    struct gn_info_page page;
-    int bar;                   /* percent of a load, as the last frame showed it; -1: none */
-    char help[1536];           /* in place of the information page; "": none */
-    struct gn_kiosk_view view; /* that the last caption is about, */
-    int64_t since_ns;          /* and since when */
-    char modes[120];           /* of the split screen */
-};
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
     int64_t due_ns; /* when the next piece is, if there is any */
@@ -186,33 +142,10 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 bool gn_show_try_other(struct gn_show *show, struct gn_options **options,
                        const struct gn_loaded *loaded);
 
-/* ---- reload.c: SIGHUP, ctl reload and ctl scene ---------------------------------------------- */
-
-/* The reload that show->wish wants: reads the options again, and begins to load their scene, or the
- * wish's file in all modes. An unfinished reload is dropped. */
-void gn_show_reload(struct gn_show *show);
-/* The functions of struct gn_part_host. */
-bool gn_show_renew(struct gn_show *show, bool turned);
-void gn_show_scene_files(const struct gn_show *show, const char *out_paths[3]);
-/* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
- * be loaded a caption has the reason for a while. */
-void gn_show_load_file(struct gn_show *show, const char *path);
-/* The first load: starts it and waits for a second; then frames begin without it. */
-bool gn_show_load_first(struct gn_show *show, struct gn_err *err);
-/* Goes on with either. False: the new configuration cannot be shown and the old one is gone. */
-bool gn_show_step_reload(struct gn_show *show, struct gn_err *err);
-void gn_show_drop_reload(struct gn_show *show);
-
-/* control/answer.c stands here; see control/answer.h. */
-
-/* viewer.c stands here; see viewer.h. */
-
 /* ---- frame.c: from the state to a frame ------------------------------------------------------ */
 
 bool gn_show_wants_frame(const struct gn_show *show);
 bool gn_show_frame(struct gn_show *show, struct gn_err *err);
-
-/* split.c stands here; see split.h. */
 
 /* ---- screen.c: the display and its context --------------------------------------------------- */
 
@@ -261,22 +194,6 @@ bool gn_show_reload_is_ready(const struct gn_show *show);  /* it is complete */
 void gn_show_take_staged(struct gn_show *show);
 void gn_show_drop_staged(struct gn_show *show);
 
-/* ---- captions.c: texts on the picture -------------------------------------------------------- */
-
-/* With the font of the settings; called again after a reload. A font that cannot be used is an
- * error that lasts. */
-void gn_show_open_captions(struct gn_show *show);
-/* Sets the texts of the frame of that view. */
-void gn_show_write_captions(struct gn_show *show, const struct gn_kiosk_view *view, int64_t now_ns);
-/* The last part of a path; NULL: the built-in scene. */
-const char *gn_show_path_name(const char *path);
-/* When the texts need another frame; 0: at once, INT64_MAX: never. */
-int64_t gn_show_captions_due_ns(const struct gn_show *show);
-/* The bar of a load wants another frame; when to ask again (INT64_MAX: nothing loads,
- * or the screen is dark or has no monitor). */
-bool gn_show_bar_moves(const struct gn_show *show);
-int64_t gn_show_bar_due_ns(const struct gn_show *show);
-
 /* ---- input.c: buttons and keys --------------------------------------------------------------- */
 
 /* After the display is open: a window has keys of its own. Called again after a reload. */
@@ -315,8 +232,6 @@ bool gn_show_look_at_first(const struct gn_show *show, struct gn_options *option
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
-/* truth.c stands here; see truth.h. */
-
 /* ---- events.c: actions as events of the machine ---------------------------------------------- */
 
 void gn_show_act(struct gn_show *show, const struct gn_action *action, int64_t time_ns);
@@ -328,22 +243,5 @@ __attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show *show, co
                                                         ...);
 /* One that lasts: the caption stays until a reload, and the status has it as config.error. */
 void gn_show_report_error(struct gn_show *show, enum gn_problem kind, const char *text);
-
-/* ---- modes.c: the list of modes, and one of them entered ------------------------------------- */
-
-/* Fills modes, scenes and rules from the options. */
-void gn_show_list_modes(struct gn_show *show);
-/* -1: no mode of that name. */
-int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
-const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);
-/* Rules that `ctl set` may change: idle, fade, captions. */
-void gn_show_take_rules(struct gn_show *show);
-/* How each mode draws that scene. */
-bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
-                  struct gn_show_looks *looks, struct gn_err *err);
-/* Puts the settings of the mode that is shown on the stage. */
-void gn_show_enter(struct gn_show *show);
-/* Sets the camera of a view; called for each frame. */
-void gn_show_take_view(struct gn_show *show, const struct gn_kiosk_view *view, int64_t seen_ns);
 
 #endif
