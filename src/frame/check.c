@@ -221,6 +221,7 @@ static const char *check_pass(const struct gn_plan *plan, const struct gn_pass *
 
 const char *gn_plan_check(const struct gn_plan *plan) {
     REQUIRE(plan->scene != NULL);
+    REQUIRE(plan->view < GN_PLAN_VIEWS_MAX);
     REQUIRE(plan->width_px > 0 && plan->height_px > 0);
     REQUIRE(plan->pass_count > 0);
     REQUIRE(plan->shadow_count <= GN_ALL_SHADOWS_MAX);

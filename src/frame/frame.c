@@ -146,7 +146,8 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     struct gn_plan *plan = &frame->plan;
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
-    *plan = (struct gn_plan){.scene = frame->scene, .maps_bytes = opts->shadow.maps_bytes};
+    *plan = (struct gn_plan){
+        .scene = frame->scene, .view = opts->number, .maps_bytes = opts->shadow.maps_bytes};
     plan->width_px = opts->output.width_px ? opts->output.width_px : 1280;
     plan->height_px = opts->output.height_px ? opts->output.height_px : 720;
     frame->camera = opts->view.light_plus_1

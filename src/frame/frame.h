@@ -99,6 +99,7 @@ struct gn_frame_opts {
     bool exposure_given;
     float exposure_ev; /* stops, when given; else automatic */
     bool all_seen;     /* no culling: for programs that will be needed later */
+    uint32_t number;   /* as gn_plan.view */
 };
 
 /* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from

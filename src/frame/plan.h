@@ -21,6 +21,7 @@
 #define GN_SAMPLERS_MAX    16 /* of a program: ES 3.0 promises no more */
 #define GN_ALL_LIGHTS_MAX  32 /* lights in one frame: passes beyond the first add to the picture */
 #define GN_ALL_SHADOWS_MAX 16 /* of them with a map */
+#define GN_PLAN_VIEWS_MAX  4  /* that have targets of their own */
 #define GN_GROUPS_MAX      4  /* of lights that share a pass */
 #define GN_POINT_CONSTANTS 6  /* vec4 of a point of a lamp: PASS_CLIP to PASS_CODE_ADD */
 
@@ -232,6 +233,7 @@ enum gn_output_format {
     GN_OUTPUT_AOV,     /* RGBA32UI: bits of four floats; not blended, not antialiased */
 };
 struct gn_plan {
+    uint32_t view; /* whose output and maps it draws to: those of other views stay */
     uint32_t width_px, height_px;
     enum gn_output_format output;
     bool encode_srgb; /* sRGB wanted of a GPU without such a target: shaders encode, or, where

@@ -58,7 +58,7 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
     if (picture->reads_atlas)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture, nearest);
     else if (pass->target.kind == GN_TARGET_ENCODED)
-        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output.texture, nearest);
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output->texture, nearest);
     else
         for (uint32_t i = 0; i < picture->shadow_count; i++) {
             const uint32_t slot = gn_pass_slot(picture, i);

@@ -38,7 +38,7 @@ void gn_gl_kept_finish(struct gn_gl *gl) {
 
 bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     struct gn_gl_kept *k = &gl->kept;
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!o->made || (format != GN_OUTPUT_SRGB8 && format != GN_OUTPUT_LINEAR8))
         return gn_fail(err, "the last picture is not 8 bits per channel: cannot keep a copy");
@@ -73,7 +73,7 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
 bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err) {
     if (!gn_gl_keep_prepare(gl, err)) return false;
     const struct gn_gl_kept *k = &gl->kept;
-    const GLuint from = gn_gl_output_finished(&gl->targets.output);
+    const GLuint from = gn_gl_output_finished(gl->targets.output);
     const GLint w = (GLint)k->width_px, h = (GLint)k->height_px;
     gn_gl_set_scissor(gl, NULL);
     gn_gl_bind_framebuffer(gl, from);
@@ -85,7 +85,7 @@ bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err) {
 
 void gn_gl_lay_over(struct gn_gl *gl, float share) {
     const struct gn_gl_kept *k = &gl->kept;
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     if (!fits(k, o) || !k->program) return;
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
     gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, (GLsizei)o->width_px, (GLsizei)o->height_px});
@@ -105,7 +105,7 @@ void gn_gl_lay_over(struct gn_gl *gl, float share) {
 
 void gn_gl_lay_beside(struct gn_gl *gl, uint32_t columns_px) {
     const struct gn_gl_kept *k = &gl->kept;
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     const GLuint to = gn_gl_output_finished(o);
     const GLint w = (GLint)(columns_px < o->width_px ? columns_px : o->width_px),
                 h = (GLint)o->height_px;
@@ -121,7 +121,7 @@ void gn_gl_lay_beside(struct gn_gl *gl, uint32_t columns_px) {
 void gn_gl_fill(struct gn_gl *gl, const struct gn_rect *part, float grey) {
     const struct gn_gl_rect rect = {(GLint)part->x, (GLint)part->y, (GLsizei)part->width,
                                     (GLsizei)part->height};
-    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(&gl->targets.output));
+    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(gl->targets.output));
     gn_gl_set_scissor(gl, &rect);
     gn_gl_set_color_write(gl, true);
     gn_gl_set_clear_color(gl, (const float[4]){grey, grey, grey, 1});

@@ -100,6 +100,9 @@ struct gn_gl_window {
 };
 void gn_gl_set_window(struct gn_gl *gl, const struct gn_gl_window *window);
 
+/* Frees the output and the maps of a view of plans; a plan of it needs to be prepared again. */
+void gn_gl_drop_view(struct gn_gl *gl, uint32_t view);
+
 /* Fills the map of a slot of encoding SCREEN of a prepared plan: a value for each pixel, the lowest
  * row first. It stays until the next call. */
 void gn_gl_give(struct gn_gl *gl, const struct gn_plan *plan, uint32_t slot, const float *values);

@@ -6,9 +6,9 @@
 
 static void clear_output(struct gn_gl *gl, const struct gn_pass *pass) {
     static const float far_depth = 1.0f;
-    const bool stencil = gl->targets.output.stencil;
+    const bool stencil = gl->targets.output->stencil;
     if (stencil) gn_gl_set_stencil_writes(gl, 255);
-    if (gl->targets.output.format == GN_OUTPUT_AOV) {
+    if (gl->targets.output->format == GN_OUTPUT_AOV) {
         GLuint bits[4];
         memcpy(bits, pass->clear.color, sizeof bits);
         GL(gl, ClearBufferuiv)(GL_COLOR, 0, bits);
@@ -92,7 +92,7 @@ void gn_gl_depth_discard(struct gn_gl *gl, const struct gn_pass *pass) {
     static const GLenum attachment[] = {GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT};
     static const GLenum window[] = {GL_DEPTH, GL_STENCIL};
     const GLenum *depth = gl->state.framebuffer ? attachment : window;
-    const bool stencil = pass->kind == GN_PASS_PICTURE && gl->targets.output.stencil;
+    const bool stencil = pass->kind == GN_PASS_PICTURE && gl->targets.output->stencil;
     GL(gl, InvalidateFramebuffer)(GL_FRAMEBUFFER, stencil ? 2 : 1, depth);
 }
 
@@ -117,7 +117,7 @@ void gn_gl_pages_copy(struct gn_gl *gl, const struct gn_pass *pass) {
 /* Copies the picture between framebuffers; the source is invalidated. */
 static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
     static const GLenum color = GL_COLOR_ATTACHMENT0;
-    const GLint w = (GLint)gl->targets.output.width_px, h = (GLint)gl->targets.output.height_px;
+    const GLint w = (GLint)gl->targets.output->width_px, h = (GLint)gl->targets.output->height_px;
     gn_gl_set_scissor(gl, NULL);
     gn_gl_bind_framebuffer(gl, from);
     GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, to);
@@ -127,7 +127,7 @@ static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
 }
 
 void gn_gl_output_resolve(struct gn_gl *gl) {
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     if (o->resolved == o->framebuffer) return;
     blit_output(gl, o->framebuffer, o->resolved);
     if (o->window && !o->encodes) blit_output(gl, o->resolved, 0);

@@ -7,8 +7,8 @@
 #include "gl/private.h"
 
 static bool has_output(struct gn_gl *gl, struct gn_err *err) {
-    if (!gl->targets.output.made) return gn_fail(err, "no picture was drawn yet");
-    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(&gl->targets.output));
+    if (!gl->targets.output->made) return gn_fail(err, "no picture was drawn yet");
+    gn_gl_bind_framebuffer(gl, gn_gl_output_finished(gl->targets.output));
     return true;
 }
 
@@ -30,7 +30,7 @@ static void read_pixels(struct gn_gl *gl, uint32_t width, uint32_t height, GLenu
 }
 
 bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!has_output(gl, err)) return false;
     if (format == GN_OUTPUT_FLOAT || format == GN_OUTPUT_AOV)
@@ -41,7 +41,7 @@ bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
 }
 
 bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err) {
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     const size_t row = 4ul * o->width_px, size = row * o->height_px;
     if (gl->read_buffer.size < size) {
         gl->read_buffer.data = gn_xrealloc(gl->read_buffer.data, size, 1);
@@ -80,7 +80,7 @@ void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float 
 }
 
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!has_output(gl, err)) return false;
     if (format == GN_OUTPUT_AOV)
@@ -96,7 +96,7 @@ bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
 /* ---- one pixel ---- */
 
 void gn_gl_finish_frame(struct gn_gl *gl) {
-    const struct gn_gl_output *o = &gl->targets.output;
+    const struct gn_gl_output *o = gl->targets.output;
     uint32_t pixel[4];
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!o->made) return;

@@ -70,8 +70,8 @@ static bool holds_content(const struct gn_gl_map *map, uint32_t tile, uint64_t h
 static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
                              const struct gn_gl_map *map) {
     if (map) return map->framebuffer;
-    return pass->target.kind == GN_TARGET_ENCODED ? gl->targets.output.encoded
-                                                  : gl->targets.output.framebuffer;
+    return pass->target.kind == GN_TARGET_ENCODED ? gl->targets.output->encoded
+                                                  : gl->targets.output->framebuffer;
 }
 
 /* What a pass is to clear. Clearing a whole map is free on a tiled GPU; clearing one tile of it
@@ -186,6 +186,7 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
         if (!p || !gn_gl_vertices_known(gl, p->attributes))
             return gn_fail(err, "program %u was not prepared", i);
     }
+    gn_gl_targets_choose(gl, plan->view);
     gl->programs.runs++;
     for (uint32_t i = 0; i < plan->program_count; i++)
         gl->plan_programs.at[i]->used = gl->programs.runs;

@@ -1,5 +1,5 @@
-/* The targets of passes: one output, and a map per shadow slot. They are made again when a plan
- * wants another size or format; maps of plans that alternate are kept. */
+/* The targets of passes: for each view an output, and a map per shadow slot. They are made again
+ * when a plan of the view wants another size or format; maps of plans that alternate are kept. */
 #include <string.h>
 
 #include "gl/private.h"
@@ -244,10 +244,15 @@ static struct gn_gl_map *map_find(struct gn_gl *gl, const struct gn_target *t) {
  * textures with mipmaps. */
 static uint32_t stand_in_px(uint32_t px) { return px & (px - 1) ? 3 : 4; }
 
+static uint32_t slot_of_view(const struct gn_gl *gl, uint32_t slot) {
+    return gl->targets.view * GN_ALL_SHADOWS_MAX + slot;
+}
+
 /* Normalises a target for lookup: pages, far sides and intermediate moments are shared by all
- * lights with the same format and size; stand-ins are shared by all lights. */
+ * lights of all views with the same format and size; stand-ins are shared by all lights. */
 static struct gn_target kept_target(const struct gn_gl *gl, const struct gn_target *target) {
     struct gn_target kept = *target;
+    kept.slot = slot_of_view(gl, kept.slot);
     if (kept.kind == GN_TARGET_BACKS) kept.index = 1; /* beside the pages */
     if (kept.kind == GN_TARGET_PAGES || kept.index > 0) kept.slot = GN_GL_SLOT_PAGES;
     if (!gl->targets.stand_ins) return kept;
@@ -286,7 +291,7 @@ struct gn_gl_map *gn_gl_map_of_slot(struct gn_gl *gl, uint32_t slot) {
     struct gn_gl_map *latest = NULL;
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
         struct gn_gl_map *m = &gl->targets.maps[i];
-        if (m->framebuffer && !m->moments && m->slot == slot &&
+        if (m->framebuffer && !m->moments && m->slot == slot_of_view(gl, slot) &&
             (!latest || m->last_used > latest->last_used))
             latest = m;
     }
@@ -313,9 +318,25 @@ static void make_room(struct gn_gl *gl, uint64_t most_bytes, uint64_t more_bytes
 
 /* ---- all of them ---- */
 
+void gn_gl_targets_choose(struct gn_gl *gl, uint32_t view) {
+    gl->targets.view = view;
+    gl->targets.output = &gl->targets.outputs[view];
+}
+
+void gn_gl_drop_view(struct gn_gl *gl, uint32_t view) {
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) {
+        struct gn_gl_map *map = &gl->targets.maps[i];
+        if (map->slot < GN_GL_SLOT_PAGES && map->slot / GN_ALL_SHADOWS_MAX == view)
+            map_finish(gl, map);
+    }
+    output_finish(gl, &gl->targets.outputs[view]);
+    if (gl->targets.view == view) gn_gl_targets_choose(gl, 0);
+}
+
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err) {
     gl->targets.prepares++;
-    return output_ensure(gl, &gl->targets.output, false, plan, err) &&
+    gn_gl_targets_choose(gl, plan->view);
+    return output_ensure(gl, gl->targets.output, false, plan, err) &&
            gn_gl_maps_ensure(gl, plan, err);
 }
 
@@ -364,7 +385,7 @@ void gn_gl_targets_forget(struct gn_gl *gl) {
 }
 
 uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {
-    uint64_t bytes = gl->targets.output.bytes;
+    uint64_t bytes = gl->targets.output->bytes;
     for (int i = 0; i < GN_GL_MAPS_MAX; i++)
         if (gl->targets.maps[i].last_used == gl->targets.prepares)
             bytes += gl->targets.maps[i].bytes;
@@ -381,6 +402,7 @@ static GLuint make_sampler(struct gn_gl *gl, GLint minified, GLint magnified) {
 }
 
 void gn_gl_targets_init(struct gn_gl *gl) {
+    gn_gl_targets_choose(gl, 0);
     for (enum gn_gl_map_sampler kind = 0; kind < GN_GL_MAP_SAMPLER_COUNT; kind++) {
         const bool nearest = kind == GN_GL_MAP_COMPARE || kind == GN_GL_MAP_NEAREST;
         const GLint filter = nearest ? GL_NEAREST : GL_LINEAR;
@@ -401,7 +423,7 @@ GLuint gn_gl_mipmap_sampler(struct gn_gl *gl, uint32_t unit, float mipmap) {
 }
 
 void gn_gl_targets_finish(struct gn_gl *gl) {
-    output_finish(gl, &gl->targets.output);
+    for (int i = 0; i < GN_PLAN_VIEWS_MAX; i++) output_finish(gl, &gl->targets.outputs[i]);
     output_finish(gl, &gl->targets.pixel);
     for (int i = 0; i < GN_GL_MAPS_MAX; i++) map_finish(gl, &gl->targets.maps[i]);
     for (int i = 0; i < GN_GL_MAP_SAMPLER_COUNT; i++)

@@ -18,8 +18,8 @@ struct gn_gl_output {
     GLuint texture, encoded, encoded_color;
     uint64_t bytes;
 };
-struct gn_gl_map { /* a shadow map, or moments of one */
-    uint32_t slot;
+struct gn_gl_map {             /* a shadow map, or moments of one */
+    uint32_t slot;             /* view x GN_ALL_SHADOWS_MAX + the plan's, or one of these below */
     enum gn_encoding encoding; /* without moments */
     enum gn_moments moments;   /* then it has no depth */
     uint32_t index;            /* of those with moments; 1: far sides of casters */
@@ -34,7 +34,7 @@ struct gn_gl_map { /* a shadow map, or moments of one */
 enum { /* maps are kept up to these limits, so that alternating plans find theirs again */
        GN_GL_MAPS_MAX = 8 * GN_ALL_SHADOWS_MAX,
        GN_GL_MAPS_MB = 256,
-       GN_GL_SLOT_PAGES = GN_ALL_SHADOWS_MAX, /* slot of shared pages and intermediate moments */
+       GN_GL_SLOT_PAGES = GN_PLAN_VIEWS_MAX * GN_ALL_SHADOWS_MAX, /* pages, intermediate moments */
        GN_GL_SLOT_STAND_INS,
 };
 enum gn_gl_map_sampler {
@@ -46,7 +46,9 @@ enum gn_gl_map_sampler {
     GN_GL_MAP_SAMPLER_COUNT,
 };
 struct gn_gl_targets {
-    struct gn_gl_output output;
+    struct gn_gl_output outputs[GN_PLAN_VIEWS_MAX];
+    struct gn_gl_output *output; /* of the plan prepared or run last; never NULL */
+    uint32_t view;               /* of the same plan */
     struct gn_gl_map maps[GN_GL_MAPS_MAX];
     GLuint map_samplers[GN_GL_MAP_SAMPLER_COUNT];
     GLuint mipmap_samplers[GN_SHADOWS_MAX]; /* by unit: of a mipmap of their own */
@@ -56,6 +58,8 @@ struct gn_gl_targets {
     struct gn_gl_output pixel; /* 1 x 1, otherwise like a plan's output: target of warm-up draws */
 };
 bool gn_gl_targets_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* Those of that view, from now on. */
+void gn_gl_targets_choose(struct gn_gl *gl, uint32_t view);
 /* Only the maps of a plan, for one that is not drawn yet. */
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* gl->targets.pixel as the plan's output. */

@@ -5,12 +5,6 @@
 #include "core/memory.h"
 #include "gl/private.h"
 
-static void swap_outputs(struct gn_gl *gl) {
-    const struct gn_gl_output output = gl->targets.output;
-    gl->targets.output = gl->targets.pixel;
-    gl->targets.pixel = output;
-}
-
 static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan, bool again,
                                    struct gn_err *err) {
     const uint64_t made = gl->programs.made;
@@ -30,14 +24,14 @@ static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
     if (!gn_gl_program_prepare(gl, &plan->programs[index], err)) return GN_GL_WARM_FAILED;
     /* A window has formats of its own: the draw goes to a corner of it, if the next picture covers
      * that. */
-    const struct gn_gl_output *o = &gl->targets.output;
+    struct gn_gl_output *const o = gl->targets.output;
     const bool corner = gl->window.width_px == plan->width_px &&
                         gl->window.height_px == plan->height_px && o->window &&
                         o->format == plan->output && o->made;
     if (!corner && !gn_gl_pixel_ensure(gl, plan, err)) return GN_GL_WARM_FAILED;
-    if (!corner) swap_outputs(gl);
+    if (!corner) gl->targets.output = &gl->targets.pixel;
     const bool ok = gn_gl_touch(gl, plan, index, err);
-    if (!corner) swap_outputs(gl);
+    gl->targets.output = o;
     struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[index]);
     const uint64_t more_bytes = gn_memory_allocated();
     if (made != gl->programs.made)

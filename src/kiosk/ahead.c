@@ -180,7 +180,7 @@ void gn_show_take_staged(struct gn_show *s) {
     struct gn_loaded *staged = scenes->staged;
     const struct gn_loaded shown = {.scene = stage->scene, .pose = stage->pose};
     gn_truth_drop(s); /* both are of the other scene */
-    gn_view_stop(&s->split.view);
+    gn_view_close(&s->split.view, s->stage.gl);
     gn_view_stop(&stage->shown);
     if (stage->gl) gn_gl_stage_show(stage->gl);
     stage->shown.builder = scenes->view.builder;

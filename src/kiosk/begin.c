@@ -116,7 +116,7 @@ bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
     gn_show_list_modes(s);
     gn_truth_drop(s);
     s->truth = (struct gn_show_truth){0};
-    gn_view_stop(&s->split.view);
+    gn_view_close(&s->split.view, s->stage.gl);
     s->split = (struct gn_show_split){0}; /* its mode is of the other list */
     s->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
     s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);

@@ -8,7 +8,7 @@ enum { REACH_PX = 12, LINE_PX = 2 }; /* of the mouse to each side of the line; t
 
 void gn_split_end(struct gn_show *s) {
     if (s->truth.on) gn_truth_end(s);
-    gn_view_stop(&s->split.view);
+    gn_view_close(&s->split.view, s->stage.gl);
     s->split = (struct gn_show_split){.at = s->split.at};
     s->changed = true;
 }
@@ -52,7 +52,7 @@ void gn_split_take_pointer(struct gn_show *s, struct gn_pointer *p) {
 
 const struct gn_plan *gn_split_draw_left(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
     struct gn_view *left = &s->split.view;
-    gn_view_share(left, &s->stage.shown, &s->looks.of[s->split.left].frame_opts);
+    gn_view_share(left, GN_VIEW_LEFT, &s->stage.shown, &s->looks.of[s->split.left].frame_opts);
     const struct gn_plan *plan = gn_view_draw(left, &s->stage, time_ns, s->warnings, err);
     return plan && gn_gl_keep(s->stage.gl, err) ? plan : NULL;
 }

@@ -21,7 +21,7 @@ static void tell(struct gn_show *s, int percent) {
 void gn_truth_drop(struct gn_show *s) {
     struct gn_show_truth *t = &s->truth;
     gn_rays_destroy(t->rays);
-    gn_view_stop(&t->view);
+    gn_view_close(&t->view, s->stage.gl);
     t->rays = NULL;
     t->shown = false;
 }
@@ -86,7 +86,7 @@ static bool has_come(const struct gn_show_truth *t) { return t->rays && gn_rays_
 
 static struct gn_view *share_shown(struct gn_show *s) {
     struct gn_view *view = &s->truth.view;
-    gn_view_share(view, &s->stage.shown, &s->stage.shown.opts);
+    gn_view_share(view, GN_VIEW_TRUTH, &s->stage.shown, &s->stage.shown.opts);
     GN_LIGHT_SET(&view->opts.shadow.any, technique, GN_TECHNIQUE_TRUTH);
     view->opts.output.msaa = 0;
     view->rays = s->truth.rays;

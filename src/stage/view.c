@@ -12,6 +12,11 @@ void gn_view_stop(struct gn_view *view) {
     view->builder = NULL;
 }
 
+void gn_view_close(struct gn_view *view, struct gn_gl *gl) {
+    if (gl && view->builder) gn_gl_drop_view(gl, view->opts.number);
+    gn_view_stop(view);
+}
+
 void gn_view_enter(struct gn_view *view, const struct gn_frame_opts *look) {
     const struct gn_frame_opts before = view->opts;
     view->opts = *look;
@@ -20,11 +25,12 @@ void gn_view_enter(struct gn_view *view, const struct gn_frame_opts *look) {
     view->generation++;
 }
 
-void gn_view_share(struct gn_view *view, const struct gn_view *with,
+void gn_view_share(struct gn_view *view, enum gn_view_number number, const struct gn_view *with,
                    const struct gn_frame_opts *look) {
     view->pose = with->pose;
     view->rested_ns = with->rested_ns;
     view->opts = *look;
+    view->opts.number = number;
     view->opts.view = with->opts.view;
     view->opts.output = with->opts.output;
     view->opts.cover = with->opts.cover;

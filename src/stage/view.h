@@ -11,6 +11,11 @@
 struct gn_rays; /* stage/rays.h */
 struct gn_stage;
 
+enum gn_view_number { /* views of one frame: each has targets of its own */
+                      GN_VIEW_SHOWN,
+                      GN_VIEW_LEFT,
+                      GN_VIEW_TRUTH,
+};
 struct gn_view {
     struct gn_frame *builder;   /* NULL: the next plan makes it */
     struct gn_frame_opts opts;  /* the look, the camera (.view), the output */
@@ -26,12 +31,15 @@ struct gn_view {
     } posed;
 };
 
-/* Ends what belongs to the context and the scene; the next plan makes it again. */
+/* Ends the builder, which belongs to a context and a scene; the next plan makes another one. */
 void gn_view_stop(struct gn_view *view);
+/* The same for a view that is not shown any more, with its targets on the GPU. gl: NULL is legal.
+ */
+void gn_view_close(struct gn_view *view, struct gn_gl *gl);
 /* Another look; the output stays, and the orbit where the camera is the same. */
 void gn_view_enter(struct gn_view *view, const struct gn_frame_opts *look);
 /* The pose, camera, output and cover of another view, in this look; the builder stays. */
-void gn_view_share(struct gn_view *view, const struct gn_view *with,
+void gn_view_share(struct gn_view *view, enum gn_view_number number, const struct gn_view *with,
                    const struct gn_frame_opts *look);
 /* Poses the scene and the turntable at a time. */
 void gn_view_pose(struct gn_view *view, const struct gn_settings *settings, int64_t time_ns);

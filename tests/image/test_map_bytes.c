@@ -81,7 +81,43 @@ static void all_that_is_allocated_is_counted(void **state) {
     assert_true(cases > 500);
 }
 
+/* As both sides of a split screen are drawn, by turns: at other samples and with other maps. */
+static void views_keep_their_targets(void **state) {
+    (void)state;
+    help_stage_open(&stage, gn_stage_scene_make, "egl", NULL, NULL);
+    struct gn_frame *const first = stage.frame,
+                           *second = gn_frame_create(stage.scene, gn_gl_caps(stage.gl));
+    uint64_t made[2];
+    for (uint32_t apart = 0; apart < 2; apart++) {
+        struct gn_frame_opts opts[2] = {
+            {.output = {.width_px = 64, .height_px = 64, .msaa = 4}},
+            {.output = {.width_px = 64, .height_px = 64}, .number = apart},
+        };
+        GN_LIGHT_SET(&opts[1].shadow.any, faces, 1 + GN_CAST_FRONT);
+        for (int i = 0; i < 6; i++) {
+            if (i == 2) made[apart] = gn_gl_stats(stage.gl).objects_created;
+            stage.frame = i % 2 ? second : first;
+            const struct gn_plan *plan = help_stage_draw(&stage, &opts[i % 2], NULL);
+            const uint32_t skipped = gn_gl_stats(stage.gl).shadow_passes_skipped;
+            if (apart && i >= 2) assert_true(plan->shadow_count > 0 && skipped > 0);
+            if (!apart && i >= 2) assert_int_equal(skipped, 0);
+        }
+        made[apart] = gn_gl_stats(stage.gl).objects_created - made[apart];
+    }
+    assert_true(made[0] > 0); /* one output is made again for each frame */
+    assert_int_equal(made[1], 0);
+    const uint64_t both = kept_bytes();
+    gn_gl_drop_view(stage.gl, 1);
+    assert_true(kept_bytes() > 0 && kept_bytes() < both);
+    gn_frame_destroy(second);
+    stage.frame = first;
+    help_stage_close(&stage);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_that_is_allocated_is_counted)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_that_is_allocated_is_counted),
+        cmocka_unit_test(views_keep_their_targets),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
