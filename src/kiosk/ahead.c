@@ -13,18 +13,18 @@
 
 enum { SLICE_BYTES = 1 << 20 };
 
-void gn_show_unready(struct gn_show *s) {
-    s->looks.ready = s->looks.made = s->scenes.looks.ready = 0;
+void gn_show_unready(struct gn_show_screen *s) {
+    s->looks.ready = s->looks.made = s->staged.looks.ready = 0;
     s->ahead.keeps = s->ahead.idle = false;
 }
 
-static void forget_upload(struct gn_show *s) {
-    gn_view_stop(&s->scenes.view);
-    s->scenes.view.pose = NULL;
-    s->scenes.whole = false;
+static void forget_upload(struct gn_show_screen *s) {
+    gn_view_stop(&s->staged.view);
+    s->staged.view.pose = NULL;
+    s->staged.whole = false;
 }
 
-void gn_show_forget_work(struct gn_show *s) {
+void gn_show_forget_work(struct gn_show_screen *s) {
     gn_show_unready(s);
     forget_upload(s);
     s->fade.prepared = false;
@@ -32,44 +32,45 @@ void gn_show_forget_work(struct gn_show *s) {
     gn_truth_drop(s);
 }
 
-void gn_show_drop_staged(struct gn_show *s) {
+void gn_show_drop_staged(struct gn_show_screen *s) {
     if (s->stage.gl) gn_gl_stage(s->stage.gl, NULL);
     forget_upload(s);
-    gn_loaded_drop(s->scenes.staged);
-    s->scenes.staged = NULL;
-    s->scenes.looks.ready = 0;
+    gn_loaded_drop(s->staged.loaded);
+    s->staged.loaded = NULL;
+    s->staged.looks.ready = 0;
 }
 
-bool gn_show_reload_is_staged(const struct gn_show *s) {
-    return s->scenes.staged && s->scenes.staged->number == GN_SHOW_RELOAD;
+bool gn_show_reload_is_staged(const struct gn_show_screen *s) {
+    return s->staged.loaded && s->staged.loaded->number == GN_SHOW_RELOAD;
 }
 
 /* The mode or scene of that number cannot be shown. */
-static void fail_place(struct gn_show *s, enum gn_kiosk_event_kind kind, int number,
+static void fail_place(struct gn_show_screen *s, enum gn_kiosk_event_kind kind, int number,
                        const char *why) {
     const struct gn_kiosk_event failed = {
-        .kind = kind, .time_ns = gn_loop_now_ns(s->loop), .mode = number, .scene = number};
+        .kind = kind, .time_ns = gn_loop_now_ns(s->show->loop), .mode = number, .scene = number};
     const bool of_mode = kind == GN_KIOSK_MODE_FAILED;
-    *(of_mode ? &s->problems.mode : &s->problems.scene) = number;
-    gn_problem_report(&s->problems, of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE, why);
-    if (!of_mode) gn_parts_loaded(&s->parts, GN_PART_LOAD_SCENE);
+    *(of_mode ? &s->show->problems.mode : &s->show->problems.scene) = number;
+    gn_problem_report(&s->show->problems, of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE, why);
+    if (!of_mode) gn_parts_loaded(&s->show->parts, GN_PART_LOAD_SCENE);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
-    gn_latency_drop(&s->buttons.latency);
+    gn_latency_drop(&s->show->buttons.latency);
 }
 
 /* As if the staged scene of the reload had not loaded. */
-static void fail_reload(struct gn_show *s, const struct gn_err *err) {
+static void fail_reload(struct gn_show_screen *s, const struct gn_err *err) {
     gn_show_drop_staged(s);
-    s->reload.loaded = gn_xalloc(1, sizeof *s->reload.loaded);
-    s->reload.loaded->number = GN_SHOW_RELOAD;
-    s->reload.loaded->err = *err;
+    s->show->reload.loaded = gn_xalloc(1, sizeof *s->show->reload.loaded);
+    s->show->reload.loaded->number = GN_SHOW_RELOAD;
+    s->show->reload.loaded->err = *err;
 }
 
 /* ---- programs ---- */
 
 /* All that the mode can need, on this screen. */
-static const struct gn_plan *plan_mode(const struct gn_show *s, const struct gn_show_looks *looks,
-                                       struct gn_view *view, int mode) {
+static const struct gn_plan *plan_mode(const struct gn_show_screen *s,
+                                       const struct gn_show_looks *looks, struct gn_view *view,
+                                       int mode) {
     const int variant = view->pose->at.variant;
     struct gn_frame_opts opts = looks->of[mode].frame_opts;
     opts.output = s->stage.shown.opts.output;
@@ -82,7 +83,7 @@ static const struct gn_plan *plan_mode(const struct gn_show *s, const struct gn_
 }
 
 /* wanted: the mode waits for it. True: it did a piece; false: nothing was left to do. */
-static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_view *view,
+static bool warm_mode(struct gn_show_screen *s, struct gn_show_looks *looks, struct gn_view *view,
                       int mode, bool wanted) {
     struct gn_err err = {0};
     char text[sizeof err.text + 64];
@@ -93,11 +94,11 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
         if (gn_gl_has_programs(s->stage.gl, plan)) looks->ready |= 1u << mode;
         return false;
     case GN_GL_WARM_FAILED:
-        if (looks == &s->scenes.looks && gn_show_reload_is_staged(s)) {
+        if (looks == &s->staged.looks && gn_show_reload_is_staged(s)) {
             fail_reload(s, &err);
             return true;
         }
-        snprintf(text, sizeof text, "mode \"%.40s\": %s", s->modes.names[mode], err.text);
+        snprintf(text, sizeof text, "mode \"%.40s\": %s", s->show->modes.names[mode], err.text);
         looks->ready |= 1u << mode; /* not tried again */
         looks->made |= 1u << mode;
         fail_place(s, GN_KIOSK_MODE_FAILED, mode, text);
@@ -110,7 +111,7 @@ static bool warm_mode(struct gn_show *s, struct gn_show_looks *looks, struct gn_
 /* Programs of other modes, until those are within their shares of the memory: a limit for modes
  * that were not shown yet; for those that were as much as all else takes, or 1/16 of the machine's.
  */
-static void drop_programs(struct gn_show *s) {
+static void drop_programs(struct gn_show_screen *s) {
     const struct gn_gl_idle idle = gn_gl_idle_programs(s->stage.gl);
     const uint64_t all = gn_memory_allocated();
     /* a cold compiler takes more than it keeps: never less than a quarter */
@@ -127,15 +128,15 @@ static void drop_programs(struct gn_show *s) {
 }
 
 /* Only while the wanted mode is shown and no scene is staged: their programs could be dropped. */
-static bool work_on_others(struct gn_show *s) {
+static bool work_on_others(struct gn_show_screen *s) {
     const int shown = s->kiosk.shown.mode;
     if (!s->ahead.keeps) {
         gn_gl_keep_programs(s->stage.gl, plan_mode(s, &s->looks, &s->stage.shown, shown));
         drop_programs(s);
         s->ahead.keeps = true;
     }
-    for (int i = 1; i < s->modes.count; i++) {
-        const int mode = (shown + i) % s->modes.count;
+    for (int i = 1; i < s->show->modes.count; i++) {
+        const int mode = (shown + i) % s->show->modes.count;
         if (s->looks.made >> mode & 1) continue;
         if (!warm_mode(s, &s->looks, &s->stage.shown, mode, false)) continue;
         drop_programs(s);
@@ -146,71 +147,71 @@ static bool work_on_others(struct gn_show *s) {
 
 /* ---- the staged scene ---- */
 
-/* The look in scenes.looks that the staged scene is shown in first. */
-static int staged_mode(const struct gn_show *s) {
+/* The look in staged.looks that the staged scene is shown in first. */
+static int staged_mode(const struct gn_show_screen *s) {
     return gn_show_reload_is_staged(s) ? 0 : s->kiosk.wanted.mode;
 }
 
-static bool staged_is_ready(const struct gn_show *s) {
-    return !s->stage.gl || (s->scenes.whole && s->scenes.looks.ready >> staged_mode(s) & 1);
+static bool staged_is_ready(const struct gn_show_screen *s) {
+    return !s->stage.gl || (s->staged.whole && s->staged.looks.ready >> staged_mode(s) & 1);
 }
 
-void gn_show_stage_reload(struct gn_show *s, const struct gn_stage_look *look) {
-    struct gn_show_scenes *scenes = &s->scenes;
-    if (s->reload.loaded) {
+void gn_show_stage_reload(struct gn_show_screen *s, const struct gn_stage_look *look) {
+    struct gn_show_staged *staged = &s->staged;
+    if (s->show->reload.loaded) {
         gn_show_drop_staged(s);
-        scenes->staged = s->reload.loaded;
-        s->reload.loaded = NULL;
+        staged->loaded = s->show->reload.loaded;
+        s->show->reload.loaded = NULL;
     }
-    scenes->looks.of[0] = *look;
-    scenes->looks.ready = 0;
-    if (look->clips != scenes->staged->pose.at.clips)
-        gn_pose_choose(&scenes->staged->pose, look->clips);
-    gn_pose_choose_variant(&scenes->staged->pose, look->variant);
+    staged->looks.of[0] = *look;
+    staged->looks.ready = 0;
+    if (look->clips != staged->loaded->pose.at.clips)
+        gn_pose_choose(&staged->loaded->pose, look->clips);
+    gn_pose_choose_variant(&staged->loaded->pose, look->variant);
     s->ahead.idle = false;
 }
 
-bool gn_show_reload_is_ready(const struct gn_show *s) {
+bool gn_show_reload_is_ready(const struct gn_show_screen *s) {
     return gn_show_reload_is_staged(s) && staged_is_ready(s);
 }
 
-void gn_show_take_staged(struct gn_show *s) {
-    struct gn_show_scenes *scenes = &s->scenes;
+void gn_show_take_staged(struct gn_show_screen *s) {
+    struct gn_show_staged *staged = &s->staged;
     struct gn_stage *stage = &s->stage;
-    struct gn_loaded *staged = scenes->staged;
+    struct gn_loaded *loaded = staged->loaded;
     const struct gn_loaded shown = {.scene = stage->scene, .pose = stage->pose};
     gn_truth_drop(s); /* both are of the other scene */
     gn_view_close(&s->split.view, s->stage.gl);
     gn_view_stop(&stage->shown);
     if (stage->gl) gn_gl_stage_show(stage->gl);
-    stage->shown.builder = scenes->view.builder;
-    scenes->view.builder = NULL;
-    stage->scene = staged->scene;
-    stage->pose = staged->pose;
-    staged->scene = shown.scene;
-    staged->pose = shown.pose;
+    stage->shown.builder = staged->view.builder;
+    staged->view.builder = NULL;
+    stage->scene = loaded->scene;
+    stage->pose = loaded->pose;
+    loaded->scene = shown.scene;
+    loaded->pose = shown.pose;
     gn_show_drop_staged(s);
     s->ahead.idle = false;
 }
 
-static bool work_on_staged(struct gn_show *s) {
-    struct gn_show_scenes *scenes = &s->scenes;
-    struct gn_loaded *staged = scenes->staged;
+static bool work_on_staged(struct gn_show_screen *s) {
+    struct gn_show_staged *staged = &s->staged;
+    struct gn_loaded *loaded = staged->loaded;
     const int mode = staged_mode(s);
     struct gn_err err = {0};
-    if (!staged) return false;
-    if (scenes->whole)
-        return !(scenes->looks.ready >> mode & 1) &&
-               warm_mode(s, &scenes->looks, &scenes->view, mode, true);
+    if (!loaded) return false;
+    if (staged->whole)
+        return !(staged->looks.ready >> mode & 1) &&
+               warm_mode(s, &staged->looks, &staged->view, mode, true);
 
     /* upload it; after a lost context the upload begins again */
-    if (!scenes->view.pose) {
-        gn_gl_stage(s->stage.gl, staged->scene);
-        scenes->view.pose = &staged->pose;
-    } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &scenes->whole, &err)) {
-        const int number = staged->number;
+    if (!staged->view.pose) {
+        gn_gl_stage(s->stage.gl, loaded->scene);
+        staged->view.pose = &loaded->pose;
+    } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &staged->whole, &err)) {
+        const int number = loaded->number;
         if (number == GN_SHOW_RELOAD) {
-            s->reload.alone = true;
+            s->show->reload.alone = true;
             return true;
         }
         gn_show_drop_staged(s);
@@ -221,14 +222,14 @@ static bool work_on_staged(struct gn_show *s) {
 
 /* ---- pieces, most urgent first ---- */
 
-bool gn_show_has_work(const struct gn_show *s) {
+bool gn_show_has_work(const struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    return !s->ahead.idle && s->stage.gl && (s->counts.frames > 0 || !screen->lit);
+    return !s->ahead.idle && s->stage.gl && (s->show->counts.frames > 0 || !screen->lit);
 }
 
 /* False: there was none. */
-static bool work_once(struct gn_show *s) {
-    if (s->rules.fade_ns > 0 && !s->fade.prepared && s->counts.frames > 0) {
+static bool work_once(struct gn_show_screen *s) {
+    if (s->rules.fade_ns > 0 && !s->fade.prepared && s->show->counts.frames > 0) {
         struct gn_err unused = {0}; /* the first fade reports a failure */
         gn_gl_keep_prepare(s->stage.gl, &unused);
         return s->fade.prepared = true;
@@ -237,28 +238,29 @@ static bool work_once(struct gn_show *s) {
     const int wanted = s->kiosk.wanted.mode;
     if (!(s->looks.ready >> wanted & 1) && warm_mode(s, &s->looks, &s->stage.shown, wanted, true))
         return true;
-    return wanted == s->kiosk.shown.mode && !s->scenes.staged && work_on_others(s);
+    return wanted == s->kiosk.shown.mode && !s->staged.loaded && work_on_others(s);
 }
 
-void gn_show_work(struct gn_show *s) {
+void gn_show_work(struct gn_show_screen *s) {
     const int64_t period_ns = s->stage.display.screen.period_ns;
-    const int64_t until_ns = gn_loop_now_ns(s->loop) + period_ns / 4;
+    const int64_t until_ns = gn_loop_now_ns(s->show->loop) + period_ns / 4;
     if (!gn_show_has_work(s)) return;
     do s->ahead.idle = !work_once(s);
-    while (!s->ahead.idle && gn_kiosk_waits(&s->kiosk) && gn_loop_now_ns(s->loop) < until_ns);
+    while (!s->ahead.idle && gn_kiosk_waits(&s->kiosk) && gn_loop_now_ns(s->show->loop) < until_ns);
     if (s->ahead.idle) {
         gn_gl_warm_end(s->stage.gl);
         if (s->ahead.dropped) malloc_trim(0);
         s->ahead.dropped = false;
     }
     /* while frames go on, each works; this is for when none comes */
-    s->ahead.due_ns = gn_loop_now_ns(s->loop) + 2 * period_ns;
+    s->ahead.due_ns = gn_loop_now_ns(s->show->loop) + 2 * period_ns;
 }
 
 /* ---- the wanted scene and mode ---- */
 
 static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
     struct gn_show *s = user;
+    struct gn_show_screen *screen = &s->screen;
     struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
     (void)events, (void)now_ns;
     if (!loaded) return; /* not done, or cancelled */
@@ -268,13 +270,13 @@ static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
         s->reload.loaded = loaded;
         return;
     }
-    if (loaded->scene && gn_show_look(s, loaded->scene, &s->scenes.looks, &loaded->err)) {
-        gn_show_drop_staged(s);
-        s->scenes.staged = loaded;
-        s->ahead.idle = false;
+    if (loaded->scene && gn_show_look(s, loaded->scene, &screen->staged.looks, &loaded->err)) {
+        gn_show_drop_staged(screen);
+        screen->staged.loaded = loaded;
+        screen->ahead.idle = false;
         return;
     }
-    fail_place(s, GN_KIOSK_SCENE_FAILED, loaded->number, loaded->err.text);
+    fail_place(screen, GN_KIOSK_SCENE_FAILED, loaded->number, loaded->err.text);
     gn_loaded_drop(loaded);
 }
 
@@ -301,54 +303,54 @@ void gn_show_start_load(struct gn_show *s, int number, const char *path,
     gn_loader_start(s->scenes.loader, number, path, &limits);
 }
 
-static bool is_ready(const struct gn_show *s, int scene) {
-    const struct gn_show_scenes *scenes = &s->scenes;
+static bool is_ready(const struct gn_show_screen *s, int scene) {
     const uint32_t bit = 1u << s->kiosk.wanted.mode;
-    if (scene == scenes->shown) return !s->stage.gl || s->looks.ready & bit;
-    return scenes->staged && scenes->staged->number == scene && staged_is_ready(s);
+    if (scene == s->scene) return !s->stage.gl || s->looks.ready & bit;
+    return s->staged.loaded && s->staged.loaded->number == scene && staged_is_ready(s);
 }
 
-bool gn_show_can_advance(const struct gn_show *s) {
+bool gn_show_can_advance(const struct gn_show_screen *s) {
     if (gn_show_reload_is_ready(s)) return true;
     return gn_kiosk_waits(&s->kiosk) && !s->fade.keeps &&
            is_ready(s, gn_kiosk_scene(&s->rules, &s->kiosk.wanted));
 }
 
-static void show_wanted(struct gn_show *s, int scene) {
-    struct gn_show_scenes *scenes = &s->scenes;
+static void show_wanted(struct gn_show_screen *s, int scene) {
+    struct gn_show_scenes *scenes = &s->show->scenes;
     struct gn_stage *stage = &s->stage;
     const struct gn_kiosk_event ready = {.kind = GN_KIOSK_READY,
-                                         .time_ns = gn_loop_now_ns(s->loop),
+                                         .time_ns = gn_loop_now_ns(s->show->loop),
                                          .mode = s->kiosk.wanted.mode,
                                          .scene = scene};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &ready);
 
     /* the staged scene replaces the stage's */
-    if (scene != scenes->shown) {
-        s->first.lost[0] = '\0'; /* another one was chosen */
-        s->looks = scenes->looks;
-        scenes->shown = scene;
+    if (scene != s->scene) {
+        s->show->first.lost[0] = '\0'; /* another one was chosen */
+        s->looks = s->staged.looks;
+        s->scene = scene;
         stage->shown.opts.view.orbit = (struct gn_orbit){0};
         gn_show_take_staged(s);
-        gn_parts_loaded(&s->parts, GN_PART_LOAD_SCENE);
+        gn_parts_loaded(&s->show->parts, GN_PART_LOAD_SCENE);
     }
     gn_show_enter(s);
-    if (s->problems.mode == s->kiosk.shown.mode) gn_problem_cure(&s->problems, GN_PROBLEM_MODE);
-    if (s->problems.scene == scene) gn_problem_cure(&s->problems, GN_PROBLEM_SCENE);
+    if (s->show->problems.mode == s->kiosk.shown.mode)
+        gn_problem_cure(&s->show->problems, GN_PROBLEM_MODE);
+    if (s->show->problems.scene == scene) gn_problem_cure(&s->show->problems, GN_PROBLEM_SCENE);
     s->fade.keeps = s->fade.kept = false;
     if (!stage->settings->run.verbose) return;
-    printf("mode %s, scene %s\n", s->modes.names[s->kiosk.shown.mode],
+    printf("mode %s, scene %s\n", s->show->modes.names[s->kiosk.shown.mode],
            scenes->paths[scene] ? scenes->paths[scene] : "(default scene)");
     fflush(stdout);
 }
 
-void gn_show_advance(struct gn_show *s) {
-    struct gn_show_scenes *scenes = &s->scenes;
+void gn_show_advance(struct gn_show_screen *s) {
+    struct gn_show_scenes *scenes = &s->show->scenes;
     const int scene = gn_kiosk_scene(&s->rules, &s->kiosk.wanted);
     const int loading = gn_loader_number(scenes->loader);
-    if (scenes->staged && scenes->staged->number != scene && !gn_show_reload_is_staged(s))
+    if (s->staged.loaded && s->staged.loaded->number != scene && !gn_show_reload_is_staged(s))
         gn_show_drop_staged(s);
-    if (loading != GN_SHOW_RELOAD && (loading != scene || scene == scenes->shown))
+    if (loading != GN_SHOW_RELOAD && (loading != scene || scene == s->scene))
         gn_loader_cancel(scenes->loader);
     if (!gn_kiosk_waits(&s->kiosk)) {
         s->fade.keeps = s->fade.kept = false;
@@ -356,17 +358,17 @@ void gn_show_advance(struct gn_show *s) {
     }
 
     /* one load at a time; a reload, which may change the list, comes first */
-    if (scene != scenes->shown && !scenes->staged && !s->reload.options &&
+    if (scene != s->scene && !s->staged.loaded && !s->show->reload.options &&
         !gn_loader_is_busy(scenes->loader))
-        gn_show_start_load(s, scene, scenes->paths[scene], s->stage.settings);
+        gn_show_start_load(s->show, scene, scenes->paths[scene], s->stage.settings);
     if (!is_ready(s, scene)) {
-        if (scenes->staged || scene == scenes->shown) s->ahead.idle = false;
+        if (s->staged.loaded || scene == s->scene) s->ahead.idle = false;
         return;
     }
 
     /* a fade starts from the last picture, which is drawn once more and kept */
     if (s->rules.fade_ns > 0 && !s->split.on && s->stage.gl && s->stage.display.screen.lit &&
-        s->counts.frames > 0 && !s->fade.kept && !gn_kiosk_is_dark(&s->kiosk))
+        s->show->counts.frames > 0 && !s->fade.kept && !gn_kiosk_is_dark(&s->kiosk))
         s->fade.keeps = true;
     else
         show_wanted(s, scene);

@@ -67,7 +67,7 @@ bool gn_show_load_nothing(struct gn_show *s, struct gn_err *err) {
                                         .first = true};
     s->config.options = o;
     return gn_stage_take(
-        &s->stage, o->settings,
+        &s->screen.stage, o->settings,
         gn_scene_load_bytes("(nothing)", nothing, sizeof nothing - 1, NULL, NULL, err), NULL, err);
 }
 
@@ -109,18 +109,19 @@ bool gn_show_look_at_first(const struct gn_show *s, struct gn_options *o, struct
 }
 
 bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
-    const int frames = s->stage.settings->run.frames;
+    struct gn_show_screen *screen = &s->screen;
+    const int frames = screen->stage.settings->run.frames;
     s->counts.most_frames = frames > 0 && !s->reload.first ? (uint64_t)frames : UINT64_MAX;
-    s->hand = (struct gn_show_hand){0};
-    s->stage.shown.rested_ns = 0;
+    screen->hand = (struct gn_show_hand){0};
+    screen->stage.shown.rested_ns = 0;
     gn_show_list_modes(s);
-    gn_truth_drop(s);
-    s->truth = (struct gn_show_truth){0};
-    gn_view_close(&s->split.view, s->stage.gl);
-    s->split = (struct gn_show_split){0}; /* its mode is of the other list */
-    s->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
-    s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
-    if (!gn_show_look(s, s->stage.scene, &s->looks, err)) return false;
-    gn_show_enter(s);
+    gn_truth_drop(screen);
+    screen->truth = (struct gn_show_truth){0};
+    gn_view_close(&screen->split.view, screen->stage.gl);
+    screen->split = (struct gn_show_split){0}; /* its mode is of the other list */
+    screen->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
+    screen->scene = gn_kiosk_scene(&screen->rules, &screen->kiosk.shown);
+    if (!gn_show_look(s, screen->stage.scene, &screen->looks, err)) return false;
+    gn_show_enter(screen);
     return true;
 }

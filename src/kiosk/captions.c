@@ -6,9 +6,9 @@
 #include "core/clock.h"
 #include "kiosk/private.h"
 
-void gn_show_open_captions(struct gn_show *s) {
+void gn_show_open_captions(struct gn_show_screen *s) {
     const struct gn_captions_opts opts = {.font = s->stage.settings->render.font,
-                                          .warnings = s->warnings};
+                                          .warnings = s->show->warnings};
     gn_captions_destroy(s->text.captions);
     s->text.captions = gn_captions_create(&opts);
     s->text.view = (struct gn_kiosk_view){0};
@@ -18,7 +18,7 @@ void gn_show_open_captions(struct gn_show *s) {
     char text[sizeof why.text + 64];
     gn_fail_prefix(&why, "%s", gn_settings_label(s->stage.settings, render.font));
     snprintf(text, sizeof text, "%s (texts are shown in the built-in font)", why.text);
-    gn_show_report_error(s, GN_PROBLEM_CONFIG, text);
+    gn_show_report_error(s->show, GN_PROBLEM_CONFIG, text);
 }
 
 const char *gn_show_path_name(const char *path) {
@@ -26,8 +26,8 @@ const char *gn_show_path_name(const char *path) {
     return !path ? "default scene" : slash ? slash + 1 : path;
 }
 
-static const char *scene_name(const struct gn_show *s, int scene) {
-    return gn_show_path_name(s->scenes.paths[scene]);
+static const char *scene_name(const struct gn_show_screen *s, int scene) {
+    return gn_show_path_name(s->show->scenes.paths[scene]);
 }
 
 /* ---- loading ---- */
@@ -35,38 +35,40 @@ static const char *scene_name(const struct gn_show *s, int scene) {
 static const int64_t PATIENCE_NS = GN_NS_PER_S / 10; /* shorter loads have no bar */
 
 /* The first load, and others that take long. */
-static bool is_loading(const struct gn_show *s, int64_t now_ns) {
-    if (s->reload.first) return true;
-    return s->rules.caption_ns > 0 && gn_loader_number(s->scenes.loader) >= 0 &&
-           now_ns - s->scenes.load_begun_ns > PATIENCE_NS;
+static bool is_loading(const struct gn_show_screen *s, int64_t now_ns) {
+    if (s->show->reload.first) return true;
+    return s->rules.caption_ns > 0 && gn_loader_number(s->show->scenes.loader) >= 0 &&
+           now_ns - s->show->scenes.load_begun_ns > PATIENCE_NS;
 }
 
-static const char *loading_name(const struct gn_show *s) {
-    const int number = gn_loader_number(s->scenes.loader);
-    if (s->reload.options && (s->reload.first || number == GN_SHOW_RELOAD))
-        return gn_show_path_name(s->reload.options->settings->scene.path);
+static const char *loading_name(const struct gn_show_screen *s) {
+    const int number = gn_loader_number(s->show->scenes.loader);
+    if (s->show->reload.options && (s->show->reload.first || number == GN_SHOW_RELOAD))
+        return gn_show_path_name(s->show->reload.options->settings->scene.path);
     return number >= 0 ? scene_name(s, number) : "";
 }
 
 /* -1: no bar. */
-static int progress_percent(const struct gn_show *s, int64_t now_ns) {
-    const double done = gn_loader_progress(s->scenes.loader);
+static int progress_percent(const struct gn_show_screen *s, int64_t now_ns) {
+    const double done = gn_loader_progress(s->show->scenes.loader);
     if (!is_loading(s, now_ns)) return -1;
     return done < 0.0 ? 100 : (int)(100.0 * done); /* loaded; the upload remains */
 }
 
-bool gn_show_bar_moves(const struct gn_show *s) {
-    return progress_percent(s, gn_loop_now_ns(s->loop)) != s->text.bar;
+bool gn_show_bar_moves(const struct gn_show_screen *s) {
+    return progress_percent(s, gn_loop_now_ns(s->show->loop)) != s->text.bar;
 }
 
-void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view, int64_t now_ns) {
+void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                            int64_t now_ns) {
     struct gn_show_text *t = &s->text;
     struct gn_frame_opts *f = &s->stage.shown.opts;
     const bool on_side = f->output.turn_deg / 90 % 2;
 
     /* captions of changes: a text is set only when it changes */
-    const char *error = s->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM) error = gn_problem_last(&s->problems);
+    const char *error = s->show->config.options->config_error;
+    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM)
+        error = gn_problem_last(&s->show->problems);
     char loading[200];
     const bool loads = !error && is_loading(s, now_ns);
     if (loads) {
@@ -82,10 +84,10 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
         const char *text = NULL;
         switch (view->caption) {
         case GN_KIOSK_CAPTION_MODE:
-            text = s->modes.names[view->caption_mode];
+            text = s->show->modes.names[view->caption_mode];
             if (!s->split.on) break;
-            snprintf(t->modes, sizeof t->modes, "%.50s | %.50s", s->modes.names[s->split.left],
-                     s->truth.on ? "truth" : text);
+            snprintf(t->modes, sizeof t->modes, "%.50s | %.50s",
+                     s->show->modes.names[s->split.left], s->truth.on ? "truth" : text);
             text = t->modes;
             break;
         case GN_KIOSK_CAPTION_SCENE: text = scene_name(s, view->caption_scene); break;
@@ -102,12 +104,12 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
     /* the information page, or the help page over it */
     const struct gn_info info = {
         .scene = scene_name(s, view->scene),
-        .mode = s->modes.names[view->mode],
+        .mode = s->show->modes.names[view->mode],
         .missing = s->stage.scene ? s->stage.scene->missing : NULL,
         .screen = &s->stage.display.screen,
         .caps = gn_gl_caps(s->stage.gl),
-        .uptime_ns = now_ns - s->counts.begun_ns,
-        .board = gn_parts_board(&s->parts),
+        .uptime_ns = now_ns - s->show->counts.begun_ns,
+        .board = gn_parts_board(&s->show->parts),
     };
     if (t->help[0] || !view->info) {
         t->page.made = false;
@@ -122,14 +124,14 @@ void gn_show_write_captions(struct gn_show *s, const struct gn_kiosk_view *view,
 }
 
 /* The information page is updated once a second. */
-int64_t gn_show_captions_due_ns(const struct gn_show *s) {
+int64_t gn_show_captions_due_ns(const struct gn_show_screen *s) {
     const int64_t next_ns = gn_captions_next_ns(s->text.captions),
                   page_ns = s->text.page.made ? s->text.page.made_ns + GN_NS_PER_S : INT64_MAX;
     return next_ns < page_ns ? next_ns : page_ns;
 }
 
-int64_t gn_show_bar_due_ns(const struct gn_show *s) {
-    const bool loads = s->text.bar >= 0 || gn_loader_number(s->scenes.loader) >= 0;
+int64_t gn_show_bar_due_ns(const struct gn_show_screen *s) {
+    const bool loads = s->text.bar >= 0 || gn_loader_number(s->show->scenes.loader) >= 0;
     const bool shows = s->stage.display.screen.lit && !s->drawn.dark;
-    return loads && shows ? gn_loop_now_ns(s->loop) + PATIENCE_NS : INT64_MAX;
+    return loads && shows ? gn_loop_now_ns(s->show->loop) + PATIENCE_NS : INT64_MAX;
 }

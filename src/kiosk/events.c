@@ -10,12 +10,12 @@ void gn_show_report_error(struct gn_show *s, enum gn_problem kind, const char *t
     if (s->config.options->config_error) return; /* the first one is likely the cause */
     snprintf(s->config.error, sizeof s->config.error, "%s", text);
     s->config.options->config_error = s->config.error;
-    s->changed = true;
+    s->screen.changed = true;
 }
 
-void gn_show_note(struct gn_show *s, const char *format, ...) {
+void gn_show_note(struct gn_show_screen *s, const char *format, ...) {
     const struct gn_kiosk_event note = {.kind = GN_KIOSK_NOTE,
-                                        .time_ns = gn_loop_now_ns(s->loop),
+                                        .time_ns = gn_loop_now_ns(s->show->loop),
                                         .caption = GN_KIOSK_CAPTION_NOTE};
     va_list args;
     va_start(args, format);
@@ -26,27 +26,27 @@ void gn_show_note(struct gn_show *s, const char *format, ...) {
 }
 
 /* Of play: the clip in the scene that is shown; -1: none of that name. */
-static int find_clip(const struct gn_show *s, const struct gn_action *action) {
+static int find_clip(const struct gn_show_screen *s, const struct gn_action *action) {
     struct gn_err err = {0};
     return action->kind == GN_ACTION_PLAY && s->stage.scene
                ? gn_scene_find_clip(s->stage.scene, action->name, &err)
                : -1;
 }
 
-bool gn_show_check_action(const struct gn_show *s, const struct gn_action *action,
+bool gn_show_check_action(const struct gn_show_screen *s, const struct gn_action *action,
                           struct gn_err *err) {
     if (action->kind == GN_ACTION_PLAY && s->stage.scene)
         return gn_scene_find_clip(s->stage.scene, action->name, err) >= 0;
-    if (action->kind != GN_ACTION_MODE || gn_show_find_mode(&s->modes, action->name) >= 0)
+    if (action->kind != GN_ACTION_MODE || gn_show_find_mode(&s->show->modes, action->name) >= 0)
         return true;
     char names[400] = "";
-    for (int i = 0, used = 0; i < s->modes.count && used < (int)sizeof names; i++)
+    for (int i = 0, used = 0; i < s->show->modes.count && used < (int)sizeof names; i++)
         used += snprintf(names + used, sizeof names - (size_t)used, "%s \"%s\"", i ? "," : "",
-                         s->modes.names[i]);
+                         s->show->modes.names[i]);
     return gn_fail_usage(err, "no mode \"%.60s\"; expected%s", action->name, names);
 }
 
-void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time_ns) {
+void gn_show_act(struct gn_show_screen *s, const struct gn_action *action, int64_t time_ns) {
     const int clip = find_clip(s, action);
     const struct gn_kiosk_event event = {
         .kind = GN_KIOSK_ACTION,
@@ -54,13 +54,13 @@ void gn_show_act(struct gn_show *s, const struct gn_action *action, int64_t time
         .action = action->kind,
         .turn = action->turn,
         .pressed = action->pressed,
-        .mode = gn_show_find_mode(&s->modes, action->name),
+        .mode = gn_show_find_mode(&s->show->modes, action->name),
         .clip = clip,
         .clip_ns = clip < 0 ? 0 : s->stage.scene->animation.clips[clip].duration_ns};
     struct gn_err err = {0};
     if (!gn_show_check_action(s, action, &err))
-        gn_problem_report(&s->problems, GN_PROBLEM_ACTION, err.text);
+        gn_problem_report(&s->show->problems, GN_PROBLEM_ACTION, err.text);
     else if (action->kind == GN_ACTION_MODE || action->kind == GN_ACTION_PLAY)
-        gn_problem_cure(&s->problems, GN_PROBLEM_ACTION);
+        gn_problem_cure(&s->show->problems, GN_PROBLEM_ACTION);
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
 }

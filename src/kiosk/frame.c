@@ -7,14 +7,14 @@
 
 #define ASK_NS (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
 
-bool gn_show_wants_frame(const struct gn_show *s) {
+bool gn_show_wants_frame(const struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     if (!screen->may_draw || !s->stage.gl) return false;
     if (screen->black || s->changed || s->fade.keeps || screen->damaged || !screen->lit)
         return true;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, screen->seen_ns);
     if (view.dark && s->drawn.dark) return false; /* black stays black */
-    const bool moves = s->counts.most_frames < UINT64_MAX || s->stage.pose.at.fade < 1 ||
+    const bool moves = s->show->counts.most_frames < UINT64_MAX || s->stage.pose.at.fade < 1 ||
                        (!view.stands && (view.clip >= 0 || !gn_pose_stands(&s->stage.pose) ||
                                          gn_show_turntable_moves(s)));
     const struct gn_kiosk_view *drawn = &s->drawn;
@@ -25,12 +25,12 @@ bool gn_show_wants_frame(const struct gn_show *s) {
         view.old > 0.0f || drawn->old > 0.0f || view.caption != drawn->caption ||
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
-    return moves || differs || gn_parts_want_frame(&s->parts) || gn_show_bar_moves(s) ||
+    return moves || differs || gn_parts_want_frame(&s->show->parts) || gn_show_bar_moves(s) ||
            gn_truth_wants_frame(s) || gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* Fills a requested screenshot from this frame. */
-static void fill_screenshot(struct gn_show *s, struct gn_screenshot *shot) {
+static void fill_screenshot(struct gn_show_screen *s, struct gn_screenshot *shot) {
     const struct gn_frame_opts *f = &s->stage.shown.opts;
     struct gn_err err = {0};
     if (!shot || !gn_screenshot_is_asked(shot)) return;
@@ -41,7 +41,7 @@ static void fill_screenshot(struct gn_show *s, struct gn_screenshot *shot) {
 }
 
 /* *behind: a filtered map is older than the pose, so another frame is due. */
-static bool draw_frame(struct gn_show *s, bool *behind, struct gn_err *err) {
+static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const int64_t seen_ns = screen->seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
@@ -58,7 +58,7 @@ static bool draw_frame(struct gn_show *s, bool *behind, struct gn_err *err) {
     gn_show_take_view(s, &view, seen_ns);
     gn_show_write_captions(s, &view, seen_ns);
     const bool is_bare = s->viewer.screenshot && gn_screenshot_is_asked(s->viewer.screenshot);
-    gn_parts_add_frame(&s->parts, &s->stage.shown.opts);
+    gn_parts_add_frame(&s->show->parts, &s->stage.shown.opts);
     if (is_bare) { /* this frame */
         s->stage.shown.opts.cover.captions = NULL;
         s->stage.shown.opts.cover.dimmed = 0.0f;
@@ -69,7 +69,7 @@ static bool draw_frame(struct gn_show *s, bool *behind, struct gn_err *err) {
     if (s->split.on && !left) return false;
     const struct gn_plan *plan =
         s->truth.on ? gn_truth_draw(s, scene_ns, err)
-                    : gn_view_draw(&s->stage.shown, &s->stage, scene_ns, s->warnings, err);
+                    : gn_view_draw(&s->stage.shown, &s->stage, scene_ns, s->show->warnings, err);
     if (!plan) return false;
     *behind = plan->is_behind || (left && left->is_behind);
     if (s->split.on)
@@ -79,7 +79,7 @@ static bool draw_frame(struct gn_show *s, bool *behind, struct gn_err *err) {
     if (s->fade.keeps) { /* this picture is the start of a fade */
         struct gn_err why = {0};
         if (!gn_gl_keep(s->stage.gl, &why)) {
-            gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why.text);
+            gn_problem_report(&s->show->problems, GN_PROBLEM_CONFIG, why.text);
             s->rules.fade_ns = 0; /* disables fades */
         }
         s->fade.keeps = false;
@@ -88,16 +88,16 @@ static bool draw_frame(struct gn_show *s, bool *behind, struct gn_err *err) {
 
     /* count allocations, except in the first frame and while a scene loads; GL objects not where a
      * mode begins either: its maps are made then */
-    if (s->counts.frames++ > 0 && !gn_loader_is_busy(s->scenes.loader)) {
-        s->counts.allocations += gn_alloc_count() - allocations;
+    if (s->show->counts.frames++ > 0 && !gn_loader_is_busy(s->show->scenes.loader)) {
+        s->show->counts.allocations += gn_alloc_count() - allocations;
         if (view.mode == s->drawn.mode && view.scene == s->drawn.scene)
-            s->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
+            s->show->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
     }
     s->drawn = view;
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
-    gn_frame_times_add(&s->counts.times, gn_loop_now_ns(s->loop));
-    fill_screenshot(s, s->screenshot);
+    gn_frame_times_add(&s->show->counts.times, gn_loop_now_ns(s->show->loop));
+    fill_screenshot(s, s->show->screenshot);
     fill_screenshot(s, s->viewer.screenshot);
     return !screen->copy_to ||
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
@@ -105,9 +105,9 @@ static bool draw_frame(struct gn_show *s, bool *behind, struct gn_err *err) {
 
 /* A GPU that was reset may have lost its memory without an error from the driver: after a stalled
  * flip known values are drawn and read back. */
-static bool gpu_is_well(struct gn_show *s) {
+static bool gpu_is_well(struct gn_show_screen *s) {
     const uint64_t stalled = s->stage.display.screen.counts.stalled;
-    const int64_t now_ns = gn_loop_now_ns(s->loop);
+    const int64_t now_ns = gn_loop_now_ns(s->show->loop);
     if (gn_gl_is_lost(s->stage.gl)) return false;
     if (stalled == s->context.checked_stalls || now_ns < s->context.checked_ns + ASK_NS)
         return true;
@@ -116,32 +116,32 @@ static bool gpu_is_well(struct gn_show *s) {
     return gn_gl_draws_right(s->stage.gl);
 }
 
-bool gn_show_frame(struct gn_show *s, struct gn_err *err) {
+bool gn_show_frame(struct gn_show_screen *s, struct gn_err *err) {
     struct gn_display *display = &s->stage.display;
-    const int64_t begun_ns = gn_loop_now_ns(s->loop);
+    const int64_t begun_ns = gn_loop_now_ns(s->show->loop);
     if (!gpu_is_well(s) && gn_display_lose(display, begun_ns)) return true;
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
     bool behind = false;
     const bool drawn = draw_frame(s, &behind, err);
-    if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_loop_now_ns(s->loop))) {
+    if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_loop_now_ns(s->show->loop))) {
         *err = (struct gn_err){0};
         return true;
     }
     if (!drawn) return false;
-    const int64_t drawn_ns = gn_loop_now_ns(s->loop);
+    const int64_t drawn_ns = gn_loop_now_ns(s->show->loop);
     s->changed = behind;
     if (!gn_display_present(display, drawn_ns, err)) return false;
 
     /* latency of buttons */
-    struct gn_latency *latency = &s->buttons.latency;
+    struct gn_latency *latency = &s->show->buttons.latency;
     const uint64_t before = latency->count;
-    gn_latency_frame(latency, gn_loop_now_ns(s->loop), !gn_kiosk_waits(&s->kiosk));
+    gn_latency_frame(latency, gn_loop_now_ns(s->show->loop), !gn_kiosk_waits(&s->kiosk));
     if (latency->count != before && s->stage.settings->run.verbose) {
         const struct gn_latency_sample last = gn_latency_last(latency);
         printf("seen %.1f ms after the edge, as frame %d\n", (double)last.ns * 1e-6, last.frames);
         fflush(stdout);
     }
-    gn_parts_drawn(&s->parts, drawn_ns - begun_ns);
+    gn_parts_drawn(&s->show->parts, drawn_ns - begun_ns);
     s->ahead.alone = drawn_ns - begun_ns > 2 * s->stage.display.screen.period_ns;
     return true;
 }

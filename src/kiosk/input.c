@@ -15,11 +15,11 @@ bool gn_show_open_input(struct gn_show *s, struct gn_err *err) {
         .loop = s->loop,
         .button_count = gn_buttons_opts(&s->buttons.map, s->buttons.opts),
         .buttons = s->buttons.opts,
-        .terminal = !s->stage.display.ops->is_window,
-        .devices = s->stage.display.ops->is_console,
-        .pointers = (enum gn_pointers)s->stage.settings->kiosk.pointer,
-        .touch_rotate_deg = (unsigned)s->stage.settings->display.touch_rotate_deg,
-        .script = s->stage.settings->run.input_script,
+        .terminal = !s->screen.stage.display.ops->is_window,
+        .devices = s->screen.stage.display.ops->is_console,
+        .pointers = (enum gn_pointers)s->screen.stage.settings->kiosk.pointer,
+        .touch_rotate_deg = (unsigned)s->screen.stage.settings->display.touch_rotate_deg,
+        .script = s->screen.stage.settings->run.input_script,
     };
     s->buttons.input = gn_input_open(&opts, gn_loop_now_ns(s->loop), s->warnings, err);
     return s->buttons.input;
@@ -36,8 +36,8 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
         if (action.kind == GN_ACTION_NONE) continue;
         action.pressed = true;
         s->counts.presses++;
-        const struct gn_kiosk before = s->kiosk, *now = &s->kiosk;
-        gn_show_act(s, &action, event.time_ns);
+        const struct gn_kiosk before = s->screen.kiosk, *now = &s->screen.kiosk;
+        gn_show_act(&s->screen, &action, event.time_ns);
 
         /* measures edges that change the picture; drops one that is undone before it was shown */
         if (gn_kiosk_is_dark(now) || (gn_kiosk_waits(&before) && !gn_kiosk_waits(now)))
@@ -47,9 +47,9 @@ void gn_show_take_input(struct gn_show *s, const struct gn_pointer *pointer) {
                  before.info != now->info || before.play.clip_plus_1 != now->play.clip_plus_1)
             gn_latency_edge(&s->buttons.latency, event.time_ns);
     }
-    const bool prints =
-        s->config.options->buttons ||
-        s->stage.settings->run.verbose; /* not for the default buttons, which few kiosks have */
+    const bool prints = s->config.options->buttons ||
+                        s->screen.stage.settings->run
+                            .verbose; /* not for the default buttons, which few kiosks have */
     while (gn_input_report(s->buttons.input, text, sizeof text))
         if (prints) fprintf(stderr, "gnomon: warning: %s\n", text);
 }

@@ -39,7 +39,8 @@ static void list_techniques(struct gn_show *s) {
         const enum gn_technique technique = order[i];
         const bool is_base = technique == (enum gn_technique)o->render.shadow.items[0];
         if (only && !is_base) continue;
-        if (gn_techniques[technique].on_plane && !is_base && !gn_planar_has_plane(s->stage.scene))
+        if (gn_techniques[technique].on_plane && !is_base &&
+            !gn_planar_has_plane(s->screen.stage.scene))
             continue;
         if (is_base) modes->base = modes->count;
         add_mode(modes, gn_techniques[technique].name, is_base ? 0 : 1 + (int)technique);
@@ -61,7 +62,7 @@ static bool comes_from_mode(const struct gn_settings *o, size_t offset) {
     return gn_settings_source(o, offset) == GN_SOURCE_MODE;
 }
 
-void gn_show_take_rules(struct gn_show *s) {
+void gn_show_take_rules(struct gn_show_screen *s) {
     const struct gn_settings *o = s->stage.settings;
     s->rules.idle = (enum gn_idle)o->kiosk.idle;
     s->rules.idle_after_ns = o->kiosk.idle_after_ns;
@@ -70,10 +71,10 @@ void gn_show_take_rules(struct gn_show *s) {
     s->rules.sleeps_black = o->schedule.off & GN_OFF_BLACK;
     s->rules.fade_ns = o->kiosk.fade_ns;
     s->rules.caption_ns = o->kiosk.captions ? o->kiosk.caption_ns : 0;
-    s->rules.names_first = s->config.options->is_lesson;
+    s->rules.names_first = s->show->config.options->is_lesson;
     s->rules.restarts = 0;
-    for (int i = 0; i < s->modes.count; i++)
-        if (gn_show_settings(s, i)->scene.animation_restart) s->rules.restarts |= 1u << i;
+    for (int i = 0; i < s->show->modes.count; i++)
+        if (gn_show_settings(s->show, i)->scene.animation_restart) s->rules.restarts |= 1u << i;
 }
 
 void gn_show_list_modes(struct gn_show *s) {
@@ -85,16 +86,16 @@ void gn_show_list_modes(struct gn_show *s) {
     for (int i = 0; i < o->mode_count; i++) add_mode(&s->modes, o->modes[i].name, 1 + i);
     if (o->mode_count == 0) list_techniques(s);
     s->modes.first = mode_or_base(&s->modes, o->settings->mode);
-    s->rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
-                                       .scene_count = s->scenes.listed,
-                                       .first_mode = mode_or_base(&s->modes, o->home)};
-    gn_show_take_rules(s);
+    s->screen.rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
+                                              .scene_count = s->scenes.listed,
+                                              .first_mode = mode_or_base(&s->modes, o->home)};
+    gn_show_take_rules(&s->screen);
     for (int i = 0; i < s->modes.count; i++) {
         const struct gn_settings *mode = gn_show_settings(s, i);
         if (comes_from_mode(mode, offsetof(struct gn_settings, scene.path)))
-            s->rules.own_scene[i] = (uint8_t)(1 + find_scene(&s->scenes, mode->scene.path));
+            s->screen.rules.own_scene[i] = (uint8_t)(1 + find_scene(&s->scenes, mode->scene.path));
         if (comes_from_mode(mode, offsetof(struct gn_settings, scene.camera)))
-            s->rules.own_camera |= 1u << i;
+            s->screen.rules.own_camera |= 1u << i;
     }
 }
 
@@ -125,14 +126,15 @@ static bool clips_jump(const struct gn_pose *pose, const struct gn_stage_look *l
 }
 
 /* From what is shown to what these clips make of it, in [kiosk] clip_fade. */
-static void choose_clips(struct gn_show *s, const struct gn_kiosk_view *view, int64_t seen_ns) {
+static void choose_clips(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                         int64_t seen_ns) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_pose *pose = &s->stage.pose;
     const bool plays =
         view->clip >= 0 && (uint32_t)view->clip < s->stage.scene->animation.clip_count;
     const int clips = look->clips, over = plays ? view->clip : -1;
     const int64_t fade_ns = s->stage.settings->kiosk.clip_fade_ns;
-    const bool was_seen = s->clips_of == s->stage.scene && s->counts.frames > 0;
+    const bool was_seen = s->clips_of == s->stage.scene && s->show->counts.frames > 0;
     s->clips_of = s->stage.scene;
     const bool jumps = clips_jump(pose, look, over, view);
     pose->at.run = look->run;
@@ -154,12 +156,12 @@ static void choose_clips(struct gn_show *s, const struct gn_kiosk_view *view, in
     pose->at.over_ns = view->clip_ns;
 }
 
-void gn_show_enter(struct gn_show *s) {
+void gn_show_enter(struct gn_show_screen *s) {
     const struct gn_stage_look *look = &s->looks.of[s->kiosk.shown.mode];
-    s->stage.settings = gn_show_settings(s, s->kiosk.shown.mode);
+    s->stage.settings = gn_show_settings(s->show, s->kiosk.shown.mode);
     gn_view_enter(&s->stage.shown, &look->frame_opts);
     /* the last frame is of the time at which it is seen, which may be later */
-    const int64_t loop_ns = gn_loop_now_ns(s->loop),
+    const int64_t loop_ns = gn_loop_now_ns(s->show->loop),
                   now_ns = loop_ns > s->kiosk.seen_ns ? loop_ns : s->kiosk.seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, now_ns);
     choose_clips(s, &view, now_ns);
@@ -168,7 +170,8 @@ void gn_show_enter(struct gn_show *s) {
     s->changed = true;
 }
 
-void gn_show_take_view(struct gn_show *s, const struct gn_kiosk_view *view, int64_t seen_ns) {
+void gn_show_take_view(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                       int64_t seen_ns) {
     const struct gn_stage_look *look = &s->looks.of[view->mode];
     struct gn_frame_opts *f = &s->stage.shown.opts;
     choose_clips(s, view, seen_ns);

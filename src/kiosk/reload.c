@@ -13,8 +13,8 @@
  * files may have changed, nor when the GPU has no room for two scenes: then the old one is freed
  * first, and the picture stands still until the new one is uploaded. */
 static bool keeps_gl(const struct gn_show *s, const struct gn_show_reload *r) {
-    const struct gn_settings *now = s->stage.settings, *fresh = r->options->settings;
-    return s->stage.gl && !r->alone && !now->render.shaders && !fresh->render.shaders &&
+    const struct gn_settings *now = s->screen.stage.settings, *fresh = r->options->settings;
+    return s->screen.stage.gl && !r->alone && !now->render.shaders && !fresh->render.shaders &&
            gn_show_same_screen(now, fresh);
 }
 
@@ -22,14 +22,15 @@ static bool keeps_gl(const struct gn_show *s, const struct gn_show_reload *r) {
  * are the same. */
 static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struct gn_err *err) {
     struct gn_options *options = r->options;
-    const bool keeps_display = gn_show_same_screen(s->stage.settings, options->settings);
+    struct gn_show_screen *screen = &s->screen;
+    const bool keeps_display = gn_show_same_screen(screen->stage.settings, options->settings);
     if (!keeps_gl(s, r)) {
-        gn_show_stop_gl(s);
-        s->context.generation = 0;
+        gn_show_stop_gl(screen);
+        screen->context.generation = 0;
     }
-    if (!keeps_display) gn_display_close(&s->stage.display);
-    gn_show_take_staged(s);
-    s->fade.prepared = false;
+    if (!keeps_display) gn_display_close(&screen->stage.display);
+    gn_show_take_staged(screen);
+    screen->fade.prepared = false;
     gn_input_close(s->buttons.input); /* it points to names in the options */
     s->buttons.input = NULL;
     gn_changes_destroy(s->config.changes);
@@ -44,26 +45,26 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     s->config.file = r->file;
     if (!r->first) s->first.lost[0] = '\0';
     s->config.waits = false;
-    s->stage.settings = options->settings;
-    s->stage.shown.opts.view.orbit = (struct gn_orbit){0};
-    const struct gn_kiosk before = s->kiosk;
+    screen->stage.settings = options->settings;
+    screen->stage.shown.opts.view.orbit = (struct gn_orbit){0};
+    const struct gn_kiosk before = screen->kiosk;
     const bool begun = gn_show_begin(s, err);
-    s->kiosk.shown.scene = s->kiosk.wanted.scene = r->scene;
-    s->scenes.shown = gn_kiosk_scene(&s->rules, &s->kiosk.shown);
+    screen->kiosk.shown.scene = screen->kiosk.wanted.scene = r->scene;
+    screen->scene = gn_kiosk_scene(&screen->rules, &screen->kiosk.shown);
     for (int i = GN_PROBLEM_CONFIG; i <= GN_PROBLEM_SCENE; i++) gn_problem_cure(&s->problems, i);
-    if (!begun || (!keeps_display && !gn_show_open_display(s, err))) return false;
-    gn_show_open_captions(s);
+    if (!begun || (!keeps_display && !gn_show_open_display(screen, err))) return false;
+    gn_show_open_captions(screen);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
         gn_problem_report(&s->problems, GN_PROBLEM_CONFIG,
                           why.text); /* not fatal: the kiosk runs without buttons */
-    s->kiosk.blanked = before.blanked;
-    s->kiosk.asleep = before.asleep;
-    s->kiosk.woken = before.woken;
-    s->kiosk.used_ns = before.used_ns;
+    screen->kiosk.blanked = before.blanked;
+    screen->kiosk.asleep = before.asleep;
+    screen->kiosk.woken = before.woken;
+    screen->kiosk.used_ns = before.used_ns;
     gn_parts_reopen(&s->parts);
-    if (!s->stage.settings->run.verbose) return true;
-    printf("reloaded, mode %s\n", s->modes.names[s->kiosk.shown.mode]);
+    if (!screen->stage.settings->run.verbose) return true;
+    printf("reloaded, mode %s\n", s->modes.names[screen->kiosk.shown.mode]);
     fflush(stdout);
     return true;
 }
@@ -73,7 +74,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
 void gn_show_drop_reload(struct gn_show *s) {
     gn_show_drop_options(s->reload.options);
     gn_loaded_drop(s->reload.loaded);
-    if (gn_show_reload_is_staged(s)) gn_show_drop_staged(s);
+    if (gn_show_reload_is_staged(&s->screen)) gn_show_drop_staged(&s->screen);
     if (gn_loader_number(s->scenes.loader) == GN_SHOW_RELOAD) gn_loader_cancel(s->scenes.loader);
     s->reload = (struct gn_show_reload){0};
 }
@@ -95,13 +96,13 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
                                               .time_ns = gn_loop_now_ns(s->loop),
                                               .caption = GN_KIOSK_CAPTION_PROBLEM};
         gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why->text);
-        s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
-        s->changed = true;
+        s->screen.kiosk = gn_kiosk_step(&s->screen.rules, &s->screen.kiosk, &failed);
+        s->screen.changed = true;
         return;
     }
     snprintf(s->config.error, sizeof s->config.error, "%s", why->text);
     s->config.options->config_error = s->config.error;
-    s->changed = true;
+    s->screen.changed = true;
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
     gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, text);
@@ -111,8 +112,8 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
 
 /* Stays in the mode of the same name. */
 static void choose_mode(const struct gn_show *s, struct gn_options *options) {
-    if (s->kiosk.wanted.mode == s->modes.base && options->mode_count == 0) return;
-    const int found = gn_options_find_mode(options, s->modes.names[s->kiosk.wanted.mode]);
+    if (s->screen.kiosk.wanted.mode == s->modes.base && options->mode_count == 0) return;
+    const int found = gn_options_find_mode(options, s->modes.names[s->screen.kiosk.wanted.mode]);
     if (found) options->settings = &options->all[found];
 }
 
@@ -123,7 +124,7 @@ static bool is_of_mode(const struct gn_settings *o) {
 /* A changed file is shown where it was in the list. */
 static int same_scene(const struct gn_show *s, const struct gn_options *options) {
     const struct gn_scene_list *list = &options->all[0].scene.list;
-    const int at = s->kiosk.wanted.scene;
+    const int at = s->screen.kiosk.wanted.scene;
     if (at >= list->count || at >= s->scenes.listed) return 0;
     const char *before = s->scenes.paths[at], *now = list->paths[at];
     return before && now && strcmp(before, now) == 0 ? at : 0;
@@ -178,7 +179,7 @@ bool gn_show_renew(struct gn_show *s, bool turned) {
 void gn_show_scene_files(const struct gn_show *s, const char *out_paths[3]) {
     const struct gn_show_scenes *scenes = &s->scenes;
     const int failed = s->problems.of[GN_PROBLEM_SCENE][0] ? s->problems.scene : INT_MAX;
-    out_paths[0] = scenes->count > 0 ? scenes->paths[scenes->shown] : NULL;
+    out_paths[0] = scenes->count > 0 ? scenes->paths[s->screen.scene] : NULL;
     out_paths[1] = s->config.asked;
     out_paths[2] = failed < scenes->count ? scenes->paths[failed] : NULL;
 }
@@ -217,9 +218,10 @@ static bool look_again(struct gn_show *s, struct gn_err *why) {
     if (s->reload.first) return true;
     choose_mode_again(s, options);
     if (options->settings == before) return true;
-    if (!gn_stage_look_build(&look, options->settings, s->scenes.staged->scene, s->warnings, why))
+    if (!gn_stage_look_build(&look, options->settings, s->screen.staged.loaded->scene, s->warnings,
+                             why))
         return false;
-    gn_show_stage_reload(s, &look);
+    gn_show_stage_reload(&s->screen, &look);
     return true;
 }
 
@@ -231,7 +233,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
         keep_old(s, r->cause, &why);
         return true;
     }
-    if (keeps_gl(s, r) && !gn_show_reload_is_ready(s)) return true;
+    if (keeps_gl(s, r) && !gn_show_reload_is_ready(&s->screen)) return true;
     const struct gn_show_reload taken = *r;
     *r = (struct gn_show_reload){0};
     const bool ok = take_reload(s, &taken, err);
@@ -255,7 +257,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
     }
     if (r->loaded) {
         if (look_at_loaded(s, &look, &why)) {
-            gn_show_stage_reload(s, &look);
+            gn_show_stage_reload(&s->screen, &look);
         } else if (r->first) {
             *err = why;
             return false;
@@ -263,7 +265,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
             keep_old(s, r->cause, &why);
         }
     }
-    if (gn_show_reload_is_staged(s)) return finish_reload(s, err);
+    if (gn_show_reload_is_staged(&s->screen)) return finish_reload(s, err);
     if (!r->options || gn_loader_is_busy(s->scenes.loader)) return true;
     const char *path = scene_path(r->options->settings, r->scene);
     if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP && !(r->first && s->first.lost[0]))
@@ -296,10 +298,10 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     struct gn_stage_look look;
     char missing[GN_SHOW_WHY];
     const bool ok = gn_show_look_at_first(s, s->config.options, loaded, &look, missing, err);
-    s->stage = (struct gn_stage){.settings = s->config.options->settings,
-                                 .scene = loaded->scene,
-                                 .pose = loaded->pose,
-                                 .shown.pose = &s->stage.pose};
+    s->screen.stage = (struct gn_stage){.settings = s->config.options->settings,
+                                        .scene = loaded->scene,
+                                        .pose = loaded->pose,
+                                        .shown.pose = &s->screen.stage.pose};
     loaded->scene = NULL;
     loaded->pose = (struct gn_pose){0};
     gn_show_drop_reload(s);

@@ -226,7 +226,7 @@ static void count(struct gn_show *s, int64_t now_ns) {
     struct memory *m = memory_of(s);
     struct gn_state_counts *c = &m->state.counts;
     const uint64_t frames = s->counts.frames;
-    if (s->stage.display.screen.lit && !gn_kiosk_is_dark(&s->kiosk))
+    if (s->screen.stage.display.screen.lit && !gn_kiosk_is_dark(&s->screen.kiosk))
         m->shown_ns += now_ns - m->seen_ns;
     m->seen_ns = now_ns;
     c->seconds += (uint64_t)(m->shown_ns / GN_NS_PER_S);
@@ -246,11 +246,11 @@ static bool take_text(const char *text, char *out, size_t size) {
 /* The scene of the configuration stays where another one is shown in its place. */
 static bool take_scene(struct gn_show *s) {
     struct gn_state *state = &memory_of(s)->state;
-    const char *path = s->scenes.paths[s->scenes.shown];
+    const char *path = s->scenes.paths[s->screen.scene];
     const bool given = s->config.file;
     char before[PATH_MAX];
     if (s->first.lost[0]) return false;
-    const char *listed = s->scenes.paths[s->kiosk.shown.scene];
+    const char *listed = s->scenes.paths[s->screen.kiosk.shown.scene];
     const bool changes = take_text(listed ? listed : "", state->listed, sizeof state->listed) ||
                          given != state->given;
     state->given = given;
@@ -267,7 +267,7 @@ static void remember(struct gn_show *s) {
     count(s, now_ns);
     if (s->reload.first) return; /* nothing is shown yet */
     const bool other =
-        take_text(s->modes.names[s->kiosk.shown.mode], m->state.mode, sizeof m->state.mode);
+        take_text(s->modes.names[s->screen.kiosk.shown.mode], m->state.mode, sizeof m->state.mode);
     if (!take_scene(s) && !other) return;
     const bool waits = m->changed;
     m->changed = true;

@@ -8,14 +8,14 @@
 #include "options/value.h"
 #include "stage/wake.h"
 
-bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
+bool gn_show_open_display(struct gn_show_screen *s, struct gn_err *err) {
     const struct gn_settings *o = s->stage.settings;
     struct gn_wake wake = {0};
     uint32_t without = 0;
     const bool srgb =
         !gn_caps_parse(o->render.without, &without, NULL) || !(without & 1u << GN_CAP_SRGB);
     s->context.screen_opts = (struct gn_screen_opts){
-        .loop = s->loop,
+        .loop = s->show->loop,
         .width_px = (uint32_t)o->render.size.width_px,
         .height_px = (uint32_t)o->render.size.height_px,
         .connector = o->display.connector,
@@ -34,18 +34,19 @@ bool gn_show_open_display(struct gn_show *s, struct gn_err *err) {
         .legacy = o->display.legacy,
         .range = (enum gn_screen_range)o->display.range,
     };
-    gn_parts_add_screen(&s->parts, &s->context.screen_opts);
+    gn_parts_add_screen(&s->show->parts, &s->context.screen_opts);
     gn_wake_begin(&wake, o);
     const bool ok = gn_display_open_screen(
-        &s->stage.display, s->config.place ? s->config.place->backend : o->display.backend,
-        &s->context.screen_opts, gn_loop_now_ns(s->loop), s->warnings, err);
+        &s->stage.display,
+        s->show->config.place ? s->show->config.place->backend : o->display.backend,
+        &s->context.screen_opts, gn_loop_now_ns(s->show->loop), s->show->warnings, err);
     gn_wake_end(&wake);
-    if (wake.no_cache.text[0]) gn_warn(s->warnings, "%s", wake.no_cache.text);
-    if (ok && s->config.place) s->config.place->opened = true;
+    if (wake.no_cache.text[0]) gn_warn(s->show->warnings, "%s", wake.no_cache.text);
+    if (ok && s->show->config.place) s->show->config.place->opened = true;
     return ok;
 }
 
-void gn_show_fit_to_screen(struct gn_show *s) {
+void gn_show_fit_to_screen(struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool direct = s->stage.display.ops->screen && !screen->copy_to;
     const struct gn_gl_window window = {screen->width_px, screen->height_px, screen->srgb};
@@ -63,16 +64,16 @@ void gn_show_fit_to_screen(struct gn_show *s) {
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
 }
 
-void gn_show_stop_gl(struct gn_show *s) {
+void gn_show_stop_gl(struct gn_show_screen *s) {
     gn_show_forget_work(s);
     gn_stage_stop_gl(&s->stage);
 }
 
 /* If GL fails the kiosk shows the reason as a text and keeps running. */
-static bool show_failure(struct gn_show *s, struct gn_err *err) {
+static bool show_failure(struct gn_show_screen *s, struct gn_err *err) {
     if (gn_stop_asked()) return false;
     gn_show_stop_gl(s);
-    if (!gn_display_show_message(&s->stage.display, err->text, gn_loop_now_ns(s->loop)))
+    if (!gn_display_show_message(&s->stage.display, err->text, gn_loop_now_ns(s->show->loop)))
         return false;
     s->context.message = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
@@ -80,29 +81,29 @@ static bool show_failure(struct gn_show *s, struct gn_err *err) {
     return true;
 }
 
-bool gn_show_is_stale(const struct gn_show *s) {
+bool gn_show_is_stale(const struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     return screen->lost || (screen->has_context && screen->generation != s->context.generation);
 }
 
-static void tell_range(struct gn_show *s) {
+static void tell_range(struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool lacks = screen->lacks_range;
     char text[160];
     if (s->context.lacks_range == lacks) return;
     s->context.lacks_range = lacks;
     if (!lacks) {
-        gn_problem_cure(&s->problems, GN_PROBLEM_RANGE);
+        gn_problem_cure(&s->show->problems, GN_PROBLEM_RANGE);
         return;
     }
     snprintf(text, sizeof text,
              "[display] range: %.*s has no property \"Broadcast RGB\", its levels stay as the "
              "driver has them; set them in the monitor's menu",
              (int)strcspn(screen->what, " "), screen->what);
-    gn_problem_report(&s->problems, GN_PROBLEM_RANGE, text);
+    gn_problem_report(&s->show->problems, GN_PROBLEM_RANGE, text);
 }
 
-bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
+bool gn_show_keep_context(struct gn_show_screen *s, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
     tell_range(s);
     if (screen->lost) {
@@ -110,7 +111,7 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
         gn_show_stop_gl(s);
         s->context.generation = 0;
         gn_wake_begin(&wake, s->stage.settings);
-        const bool ok = gn_display_renew(&s->stage.display, gn_loop_now_ns(s->loop), err);
+        const bool ok = gn_display_renew(&s->stage.display, gn_loop_now_ns(s->show->loop), err);
         gn_wake_end(&wake);
         if (!ok) return false;
     }
@@ -119,9 +120,9 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     gn_show_stop_gl(s);
     s->context.generation = screen->generation;
     s->changed = true;
-    if (!gn_stage_start_gl(&s->stage, s->warnings, err)) return show_failure(s, err);
+    if (!gn_stage_start_gl(&s->stage, s->show->warnings, err)) return show_failure(s, err);
     if (s->context.message)
-        gn_display_show_message(&s->stage.display, NULL, gn_loop_now_ns(s->loop));
+        gn_display_show_message(&s->stage.display, NULL, gn_loop_now_ns(s->show->loop));
     s->context.message = false;
     if (screen->may_draw) return true;
 
@@ -130,8 +131,8 @@ bool gn_show_keep_context(struct gn_show *s, struct gn_err *err) {
     s->stage.shown.opts.output.height_px = 36;
     s->stage.shown.opts.cover.captions = NULL; /* those are laid out for another size */
     gn_gl_set_window(s->stage.gl, NULL);
-    if (!gn_view_draw(&s->stage.shown, &s->stage, s->stage.settings->scene.time_ns, s->warnings,
-                      err))
+    if (!gn_view_draw(&s->stage.shown, &s->stage, s->stage.settings->scene.time_ns,
+                      s->show->warnings, err))
         return show_failure(s, err);
     gn_gl_finish_frame(s->stage.gl); /* many drivers compile at the first draw */
     return true;

@@ -6,26 +6,26 @@
 
 enum { REACH_PX = 12, LINE_PX = 2 }; /* of the mouse to each side of the line; the line's half */
 
-void gn_split_end(struct gn_show *s) {
+void gn_split_end(struct gn_show_screen *s) {
     if (s->truth.on) gn_truth_end(s);
     gn_view_close(&s->split.view, s->stage.gl);
     s->split = (struct gn_show_split){.at = s->split.at};
     s->changed = true;
 }
 
-void gn_split_toggle(struct gn_show *s) {
+void gn_split_toggle(struct gn_show_screen *s) {
     const struct gn_action next = {.kind = GN_ACTION_NEXT};
     if (s->split.on) {
         gn_split_end(s);
         return;
     }
     s->split = (struct gn_show_split){.on = true, .left = s->kiosk.shown.mode, .at = 0.5f};
-    gn_show_act(s, &next, gn_loop_now_ns(s->loop));
+    gn_show_act(s, &next, gn_loop_now_ns(s->show->loop));
     s->changed = true;
 }
 
 /* The truth of the mode that is on the right, else of the one that is shown. */
-void gn_split_toggle_truth(struct gn_show *s) {
+void gn_split_toggle_truth(struct gn_show_screen *s) {
     const bool on = s->truth.on;
     if (on)
         gn_truth_end(s);
@@ -37,7 +37,7 @@ void gn_split_toggle_truth(struct gn_show *s) {
         s->split = (struct gn_show_split){.on = true, .left = s->kiosk.shown.mode, .at = 0.5f};
 }
 
-void gn_split_take_pointer(struct gn_show *s, struct gn_pointer *p) {
+void gn_split_take_pointer(struct gn_show_screen *s, struct gn_pointer *p) {
     struct gn_show_split *split = &s->split;
     const float width = (float)s->stage.display.screen.width_px;
     if (!split->on) return;
@@ -50,14 +50,15 @@ void gn_split_take_pointer(struct gn_show *s, struct gn_pointer *p) {
     if (p->released) split->grips = false;
 }
 
-const struct gn_plan *gn_split_draw_left(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
+const struct gn_plan *gn_split_draw_left(struct gn_show_screen *s, int64_t time_ns,
+                                         struct gn_err *err) {
     struct gn_view *left = &s->split.view;
     gn_view_share(left, GN_VIEW_LEFT, &s->stage.shown, &s->looks.of[s->split.left].frame_opts);
-    const struct gn_plan *plan = gn_view_draw(left, &s->stage, time_ns, s->warnings, err);
+    const struct gn_plan *plan = gn_view_draw(left, &s->stage, time_ns, s->show->warnings, err);
     return plan && gn_gl_keep(s->stage.gl, err) ? plan : NULL;
 }
 
-void gn_split_lay_over(struct gn_show *s) {
+void gn_split_lay_over(struct gn_show_screen *s) {
     const struct gn_frame_opts *f = &s->stage.shown.opts;
     const uint32_t width = f->output.width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
                    from = at > LINE_PX ? at - LINE_PX : 0,

@@ -10,7 +10,7 @@
 #include "display/pointer.h"
 #include "stage/view.h"
 
-struct gn_show;
+struct gn_show_screen;
 
 struct gn_show_split {   /* zeroed: off */
     bool on, grips;      /* grips: the mouse drags the line */
@@ -20,15 +20,16 @@ struct gn_show_split {   /* zeroed: off */
 };
 
 /* On: the shown mode goes to the left, and the next one is shown on the right; off: that stays. */
-void gn_split_toggle(struct gn_show *show);
+void gn_split_toggle(struct gn_show_screen *screen);
 /* In place of the right mode its truth, with a split if there is none; off: as before. */
-void gn_split_toggle_truth(struct gn_show *show);
-void gn_split_end(struct gn_show *show);
+void gn_split_toggle_truth(struct gn_show_screen *screen);
+void gn_split_end(struct gn_show_screen *screen);
 /* A drag that begins near the line moves it, and does not turn the view. */
-void gn_split_take_pointer(struct gn_show *show, struct gn_pointer *pointer);
+void gn_split_take_pointer(struct gn_show_screen *screen, struct gn_pointer *pointer);
 /* Draws the left mode and keeps that picture, before the frame of the shown mode at the same time
  * of the scene. NULL on failure. */
-const struct gn_plan *gn_split_draw_left(struct gn_show *show, int64_t time_ns, struct gn_err *err);
-void gn_split_lay_over(struct gn_show *show); /* after it */
+const struct gn_plan *gn_split_draw_left(struct gn_show_screen *screen, int64_t time_ns,
+                                         struct gn_err *err);
+void gn_split_lay_over(struct gn_show_screen *screen); /* after it */
 
 #endif

@@ -7,18 +7,18 @@
 static const int64_t REST_NS = GN_NS_PER_S * 3 / 10, /* a view that is so old has come to rest */
     POLL_NS = GN_NS_PER_S / 20, TELL_NS = GN_NS_PER_S / 4;
 
-static void pause(struct gn_show *s) {
+static void pause(struct gn_show_screen *s) {
     const struct gn_action action = {.kind = GN_ACTION_PAUSE};
-    gn_show_act(s, &action, gn_loop_now_ns(s->loop));
+    gn_show_act(s, &action, gn_loop_now_ns(s->show->loop));
 }
 
-static void tell(struct gn_show *s, int percent) {
+static void tell(struct gn_show_screen *s, int percent) {
     s->truth.percent = percent;
-    s->truth.told_ns = gn_loop_now_ns(s->loop);
+    s->truth.told_ns = gn_loop_now_ns(s->show->loop);
     gn_show_note(s, "truth %d %%", percent);
 }
 
-void gn_truth_drop(struct gn_show *s) {
+void gn_truth_drop(struct gn_show_screen *s) {
     struct gn_show_truth *t = &s->truth;
     gn_rays_destroy(t->rays);
     gn_view_close(&t->view, s->stage.gl);
@@ -26,7 +26,7 @@ void gn_truth_drop(struct gn_show *s) {
     t->shown = false;
 }
 
-void gn_truth_end(struct gn_show *s) {
+void gn_truth_end(struct gn_show_screen *s) {
     const bool pauses = s->truth.pauses;
     gn_truth_drop(s);
     s->truth = (struct gn_show_truth){0};
@@ -34,19 +34,19 @@ void gn_truth_end(struct gn_show *s) {
     s->changed = true;
 }
 
-void gn_truth_begin(struct gn_show *s) {
+void gn_truth_begin(struct gn_show_screen *s) {
     if (s->stage.display.screen.rotate_deg != 0) {
         gn_show_note(s, "truth: not on a rotated screen");
         return;
     }
     gn_truth_drop(s);
     s->truth = (struct gn_show_truth){
-        .on = true, .pauses = !s->kiosk.paused, .changed_ns = gn_loop_now_ns(s->loop)};
+        .on = true, .pauses = !s->kiosk.paused, .changed_ns = gn_loop_now_ns(s->show->loop)};
     if (!s->kiosk.paused) pause(s);
     tell(s, 0);
 }
 
-void gn_truth_step(struct gn_show *s) {
+void gn_truth_step(struct gn_show_screen *s) {
     const struct gn_show_truth *t = &s->truth;
     if (!t->on) return;
     if (!s->kiosk.paused) {
@@ -56,35 +56,37 @@ void gn_truth_step(struct gn_show *s) {
     }
     if (!t->rays || t->shown) return;
     const int percent = (int)(100.0 * gn_rays_progress(t->rays));
-    if (percent != t->percent && gn_loop_now_ns(s->loop) >= t->told_ns + TELL_NS) tell(s, percent);
+    if (percent != t->percent && gn_loop_now_ns(s->show->loop) >= t->told_ns + TELL_NS)
+        tell(s, percent);
 }
 
-bool gn_truth_wants_frame(const struct gn_show *s) {
+bool gn_truth_wants_frame(const struct gn_show_screen *s) {
     const struct gn_show_truth *t = &s->truth;
     if (!t->on || t->shown) return false;
-    return t->rays ? gn_rays_are_done(t->rays) : gn_loop_now_ns(s->loop) >= t->changed_ns + REST_NS;
+    return t->rays ? gn_rays_are_done(t->rays)
+                   : gn_loop_now_ns(s->show->loop) >= t->changed_ns + REST_NS;
 }
 
-int64_t gn_truth_due_ns(const struct gn_show *s) {
+int64_t gn_truth_due_ns(const struct gn_show_screen *s) {
     const struct gn_show_truth *t = &s->truth;
     if (!t->on || t->shown || !s->stage.display.screen.may_draw) return INT64_MAX;
-    return t->rays ? gn_loop_now_ns(s->loop) + POLL_NS : t->changed_ns + REST_NS;
+    return t->rays ? gn_loop_now_ns(s->show->loop) + POLL_NS : t->changed_ns + REST_NS;
 }
 
 /* ---- a frame ---- */
 
 /* Drops rays of another look, camera or moment. */
-static void follow_shown(struct gn_show *s) {
+static void follow_shown(struct gn_show_screen *s) {
     struct gn_show_truth *t = &s->truth;
     if (t->generation == s->stage.shown.generation) return;
     gn_truth_drop(s);
     t->generation = s->stage.shown.generation;
-    t->changed_ns = gn_loop_now_ns(s->loop);
+    t->changed_ns = gn_loop_now_ns(s->show->loop);
 }
 
 static bool has_come(const struct gn_show_truth *t) { return t->rays && gn_rays_are_done(t->rays); }
 
-static struct gn_view *share_shown(struct gn_show *s) {
+static struct gn_view *share_shown(struct gn_show_screen *s) {
     struct gn_view *view = &s->truth.view;
     gn_view_share(view, GN_VIEW_TRUTH, &s->stage.shown, &s->stage.shown.opts);
     GN_LIGHT_SET(&view->opts.shadow.any, technique, GN_TECHNIQUE_TRUTH);
@@ -93,14 +95,14 @@ static struct gn_view *share_shown(struct gn_show *s) {
     return view;
 }
 
-static bool begin_rays(struct gn_show *s, struct gn_err *err) {
+static bool begin_rays(struct gn_show_screen *s, struct gn_err *err) {
     struct gn_view *view = share_shown(s);
-    const struct gn_plan *plan = gn_view_plan(view, s->stage.gl, s->warnings, err);
+    const struct gn_plan *plan = gn_view_plan(view, s->stage.gl, s->show->warnings, err);
     s->truth.rays = plan ? gn_rays_begin(&s->stage, view, plan, err) : NULL;
     return s->truth.rays;
 }
 
-const struct gn_plan *gn_truth_draw(struct gn_show *s, int64_t time_ns, struct gn_err *err) {
+const struct gn_plan *gn_truth_draw(struct gn_show_screen *s, int64_t time_ns, struct gn_err *err) {
     struct gn_show_truth *t = &s->truth;
     struct gn_view *view = &s->stage.shown;
     struct gn_err why = {0};
@@ -109,10 +111,10 @@ const struct gn_plan *gn_truth_draw(struct gn_show *s, int64_t time_ns, struct g
     if (has_come(t)) {
         t->shown = true;
         view = share_shown(s);
-    } else if (!t->rays && gn_loop_now_ns(s->loop) >= t->changed_ns + REST_NS &&
+    } else if (!t->rays && gn_loop_now_ns(s->show->loop) >= t->changed_ns + REST_NS &&
                !begin_rays(s, &why)) {
         gn_truth_end(s);
         gn_show_note(s, "%s", why.text);
     }
-    return gn_view_draw(view, &s->stage, time_ns, s->warnings, err);
+    return gn_view_draw(view, &s->stage, time_ns, s->show->warnings, err);
 }

@@ -10,7 +10,7 @@
 #include "core/err.h"
 #include "stage/view.h"
 
-struct gn_show;
+struct gn_show_screen;
 struct gn_rays;
 
 struct gn_show_truth { /* zeroed: off */
@@ -24,16 +24,18 @@ struct gn_show_truth { /* zeroed: off */
 };
 
 /* The scene's time stands until the end, which also comes when that goes on. */
-void gn_truth_begin(struct gn_show *show);
-void gn_truth_end(struct gn_show *show);
+void gn_truth_begin(struct gn_show_screen *screen);
+void gn_truth_end(struct gn_show_screen *screen);
 /* Ends the thread and what belongs to the context; the scene may go. */
-void gn_truth_drop(struct gn_show *show);
+void gn_truth_drop(struct gn_show_screen *screen);
 /* Before frames: shows how many rays are cast. */
-void gn_truth_step(struct gn_show *show);
-bool gn_truth_wants_frame(const struct gn_show *show);
-int64_t gn_truth_due_ns(const struct gn_show *show); /* when to step again; INT64_MAX: never */
+void gn_truth_step(struct gn_show_screen *screen);
+bool gn_truth_wants_frame(const struct gn_show_screen *screen);
+int64_t gn_truth_due_ns(
+    const struct gn_show_screen *screen); /* when to step again; INT64_MAX: never */
 /* Draws the truth of the shown view once it is there, until then the shown view itself. NULL on
  * failure. */
-const struct gn_plan *gn_truth_draw(struct gn_show *show, int64_t time_ns, struct gn_err *err);
+const struct gn_plan *gn_truth_draw(struct gn_show_screen *screen, int64_t time_ns,
+                                    struct gn_err *err);
 
 #endif

@@ -39,15 +39,15 @@ static size_t add_button(const struct gn_button_config *button, char *out, size_
     return used < size ? used : size - 1;
 }
 
-static void write_help(const struct gn_show *s, char *out, size_t size) {
+static void write_help(const struct gn_show_screen *s, char *out, size_t size) {
     size_t used = 0;
     for (const struct gn_viewer_key *row = gn_viewer_keys; row->name && used + 1 < size; row++)
         used += (size_t)snprintf(out + used, size - used, "%s: %s\n", row->name, row->meaning);
-    for (int i = 0; i < s->buttons.map.count && used + 1 < size; i++)
-        used += add_button(&s->buttons.map.items[i], out + used, size - used);
+    for (int i = 0; i < s->show->buttons.map.count && used + 1 < size; i++)
+        used += add_button(&s->show->buttons.map.items[i], out + used, size - used);
 }
 
-static void show_help(struct gn_show *s, bool on) {
+static void show_help(struct gn_show_screen *s, bool on) {
     s->viewer.helps = on;
     s->text.help[0] = 0;
     if (on) write_help(s, s->text.help, sizeof s->text.help);
@@ -56,12 +56,12 @@ static void show_help(struct gn_show *s, bool on) {
 
 /* ---- commands ---- */
 
-static void choose_camera(struct gn_show *s, int number) {
+static void choose_camera(struct gn_show_screen *s, int number) {
     const uint32_t count = s->stage.scene->camera_count, place = (uint32_t)number;
     const struct gn_frame_opts *look = &s->looks.of[s->kiosk.shown.mode].frame_opts;
     const struct gn_kiosk_event event = {
         .kind = GN_KIOSK_CAMERA,
-        .time_ns = gn_loop_now_ns(s->loop),
+        .time_ns = gn_loop_now_ns(s->show->loop),
         .camera = (place + count - (uint32_t)look->view.camera % count) % count};
     if (place < count)
         s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
@@ -69,9 +69,9 @@ static void choose_camera(struct gn_show *s, int number) {
         gn_show_note(s, "the scene has %u camera%s", count, count == 1 ? "" : "s");
 }
 
-static void change_speed(struct gn_show *s, int by) {
+static void change_speed(struct gn_show_screen *s, int by) {
     const struct gn_kiosk_event event = {
-        .kind = GN_KIOSK_SPEED, .time_ns = gn_loop_now_ns(s->loop), .by = by};
+        .kind = GN_KIOSK_SPEED, .time_ns = gn_loop_now_ns(s->show->loop), .by = by};
     s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
     if (s->kiosk.speed >= 0)
         gn_show_note(s, "speed %d", 1 << s->kiosk.speed);
@@ -79,7 +79,7 @@ static void change_speed(struct gn_show *s, int by) {
         gn_show_note(s, "speed 1/%d", 1 << -s->kiosk.speed);
 }
 
-static bool set_option(struct gn_show *s, const char *key, const char *value) {
+static bool set_option(struct gn_show_screen *s, const char *key, const char *value) {
     struct gn_err err = {0};
     if (gn_show_set_option(s, gn_changes_find(key, &err), value, &err)) return true;
     gn_show_note(s, "%s", err.text);
@@ -87,14 +87,14 @@ static bool set_option(struct gn_show *s, const char *key, const char *value) {
 }
 
 /* One that is shown becomes none; else the studio, unless the settings name a file. */
-static void change_environment(struct gn_show *s) {
+static void change_environment(struct gn_show_screen *s) {
     const bool shown = s->looks.of[s->kiosk.shown.mode].frame_opts.environment.of;
     const char *next = shown ? "none" : "studio";
     if (set_option(s, "environment", next)) gn_show_note(s, "environment: %s", next);
 }
 
 /* All, as the scene begins, then each, then none. */
-static void choose_clip(struct gn_show *s) {
+static void choose_clip(struct gn_show_screen *s) {
     const struct gn_scene *scene = s->stage.scene;
     const int count = (int)scene->animation.clip_count,
               now = s->looks.of[s->kiosk.shown.mode].clips,
@@ -112,7 +112,7 @@ static void choose_clip(struct gn_show *s) {
 /* ---- screenshots ---- */
 
 static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
-    struct gn_show *s = user;
+    struct gn_show_screen *s = user;
     struct gn_err err = {0};
     bool ok;
     (void)events, (void)now_ns;
@@ -124,8 +124,8 @@ static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
 }
 
 /* The first free gnomon-SCENE-NNN.png. */
-static bool choose_path(const struct gn_show *s, char *path, size_t size) {
-    const char *name = gn_show_path_name(s->scenes.paths[s->scenes.shown]),
+static bool choose_path(const struct gn_show_screen *s, char *path, size_t size) {
+    const char *name = gn_show_path_name(s->show->scenes.paths[s->scene]),
                *dot = strrchr(name, '.');
     const int length = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
     for (int i = 1; i < 1000; i++) {
@@ -138,7 +138,7 @@ static bool choose_path(const struct gn_show *s, char *path, size_t size) {
     return false;
 }
 
-static bool open_screenshot(struct gn_show *s, struct gn_err *err) {
+static bool open_screenshot(struct gn_show_screen *s, struct gn_err *err) {
     struct gn_show_viewer *v = &s->viewer;
     if (v->screenshot) return true;
     v->screenshot = gn_screenshot_create(err);
@@ -147,11 +147,11 @@ static bool open_screenshot(struct gn_show *s, struct gn_err *err) {
                                            .events = EPOLLIN,
                                            .call = finish_screenshot,
                                            .user = s};
-    return gn_loop_add(s->loop, &v->screenshot_done) ||
+    return gn_loop_add(s->show->loop, &v->screenshot_done) ||
            gn_fail(err, "screenshot: %s", strerror(errno));
 }
 
-static void write_screenshot(struct gn_show *s) {
+static void write_screenshot(struct gn_show_screen *s) {
     struct gn_show_viewer *v = &s->viewer;
     struct gn_err err = {0};
     if (v->screenshot && gn_screenshot_is_busy(v->screenshot)) return;
@@ -167,7 +167,7 @@ static void write_screenshot(struct gn_show *s) {
 
 /* ---- keys ---- */
 
-static void run_command(struct gn_show *s, enum gn_viewer_command command, int place) {
+static void run_command(struct gn_show_screen *s, enum gn_viewer_command command, int place) {
     switch (command) {
     case GN_VIEWER_HELP: show_help(s, true); break;
     case GN_VIEWER_CAMERA: choose_camera(s, place); break;
@@ -180,7 +180,7 @@ static void run_command(struct gn_show *s, enum gn_viewer_command command, int p
     case GN_VIEWER_SCREENSHOT: write_screenshot(s); break;
     case GN_VIEWER_RELOAD:
         gn_show_note(s, "reloading ..");
-        s->reloads = true;
+        s->show->reloads = true;
         break;
     default: break;
     }
@@ -188,10 +188,10 @@ static void run_command(struct gn_show *s, enum gn_viewer_command command, int p
 
 /* The first key on a dark screen switches it on, and one on the help page ends that: nothing else.
  */
-static bool only_wakes(struct gn_show *s) {
+static bool only_wakes(struct gn_show_screen *s) {
     const struct gn_action wake = {.kind = GN_ACTION_BLANK, .turn = GN_TURN_OFF};
     if (gn_kiosk_is_dark(&s->kiosk))
-        gn_show_act(s, &wake, gn_loop_now_ns(s->loop));
+        gn_show_act(s, &wake, gn_loop_now_ns(s->show->loop));
     else if (s->viewer.helps)
         show_help(s, false);
     else
@@ -204,23 +204,23 @@ static void turn(struct gn_pointer *pointer, unsigned arrows, float by) {
     pointer->turn[1] += by * (float)((int)(arrows >> 2 & 1) - (int)(arrows >> 3 & 1));
 }
 
-static void take_arrow(struct gn_show *s, struct gn_pointer *pointer, int place, bool down) {
+static void take_arrow(struct gn_show_screen *s, struct gn_pointer *pointer, int place, bool down) {
     struct gn_show_viewer *v = &s->viewer;
     v->held &= ~(1u << place);
     if (!down) return;
     turn(pointer, 1u << place, STEP);
     v->held |= 1u << place;
-    v->turned_ns = gn_loop_now_ns(s->loop) + HOLD_NS;
+    v->turned_ns = gn_loop_now_ns(s->show->loop) + HOLD_NS;
 }
 
-static bool is_bound(const struct gn_show *s, unsigned key) {
-    const struct gn_buttons *own = s->config.options->buttons;
+static bool is_bound(const struct gn_show_screen *s, unsigned key) {
+    const struct gn_buttons *own = s->show->config.options->buttons;
     return own && gn_buttons_have_key(own, key);
 }
 
-void gn_viewer_take_keys(struct gn_show *s, struct gn_pointer *pointer) {
+void gn_viewer_take_keys(struct gn_show_screen *s, struct gn_pointer *pointer) {
     struct gn_show_viewer *v = &s->viewer;
-    const int64_t now_ns = gn_loop_now_ns(s->loop);
+    const int64_t now_ns = gn_loop_now_ns(s->show->loop);
     unsigned kept = 0;
     if (pointer->key_count > 0 || v->held) s->kiosk.used_ns = now_ns;
     for (unsigned i = 0; i < pointer->key_count; i++) {
@@ -245,22 +245,22 @@ void gn_viewer_take_keys(struct gn_show *s, struct gn_pointer *pointer) {
     v->turned_ns = now_ns;
 }
 
-int64_t gn_viewer_due_ns(const struct gn_show *s) {
+int64_t gn_viewer_due_ns(const struct gn_show_screen *s) {
     const bool turns = s->viewer.held && s->stage.display.screen.may_draw;
     return turns ? s->viewer.turned_ns : INT64_MAX;
 }
 
-void gn_viewer_set_title(struct gn_show *s) {
+void gn_viewer_set_title(struct gn_show_screen *s) {
     char title[sizeof s->viewer.title];
-    const char *path = s->reload.first ? s->reload.options->settings->scene.path
-                                       : s->scenes.paths[s->scenes.shown];
+    const char *path = s->show->reload.first ? s->show->reload.options->settings->scene.path
+                                             : s->show->scenes.paths[s->scene];
     snprintf(title, sizeof title, "%.150s - gnomon", gn_show_path_name(path));
     if (strcmp(title, s->viewer.title) == 0) return;
     snprintf(s->viewer.title, sizeof s->viewer.title, "%s", title);
     gn_display_set_title(&s->stage.display, title);
 }
 
-void gn_viewer_close(struct gn_show *s) {
+void gn_viewer_close(struct gn_show_screen *s) {
     gn_loop_remove(&s->viewer.screenshot_done);
     gn_screenshot_destroy(s->viewer.screenshot);
     s->viewer.screenshot = NULL;

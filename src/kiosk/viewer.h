@@ -6,7 +6,7 @@
 #include "display/pointer.h"
 #include "kiosk/screenshot.h"
 
-struct gn_show;
+struct gn_show_screen;
 
 struct gn_show_viewer { /* zeroed: not a window, or no key yet */
     unsigned held;      /* arrows that are down: bits 1 << place in their row */
@@ -21,11 +21,11 @@ struct gn_show_viewer { /* zeroed: not a window, or no key yet */
 
 /* Takes the keys that are the viewer's out of the pointer, and acts on them; arrows become turns
  * there. Not those that the configuration gives to a button. */
-void gn_viewer_take_keys(struct gn_show *show, struct gn_pointer *pointer);
+void gn_viewer_take_keys(struct gn_show_screen *screen, struct gn_pointer *pointer);
 /* When it is due by itself: an arrow is held down. INT64_MAX: never. */
-int64_t gn_viewer_due_ns(const struct gn_show *show);
+int64_t gn_viewer_due_ns(const struct gn_show_screen *screen);
 /* "sundial.glb - gnomon" */
-void gn_viewer_set_title(struct gn_show *show);
-void gn_viewer_close(struct gn_show *show);
+void gn_viewer_set_title(struct gn_show_screen *screen);
+void gn_viewer_close(struct gn_show_screen *screen);
 
 #endif

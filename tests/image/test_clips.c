@@ -33,29 +33,30 @@ static void until_warm(struct gn_show *show) {
     do {
         help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
-    } while (show->counts.frames == 0 || gn_show_has_work(show));
+    } while (show->counts.frames == 0 || gn_show_has_work(&show->screen));
 }
 
 /* Until no frame is wanted any more. */
 static void until_still(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     until_warm(show);
-    while (!show->stage.display.screen.may_draw || gn_show_wants_frame(show)) {
+    while (!show->screen.stage.display.screen.may_draw || gn_show_wants_frame(&show->screen)) {
         help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
     }
 }
 
 static void act(struct gn_show *show, enum gn_action_kind kind, const char *name) {
-    gn_show_act(show, &(struct gn_action){.kind = kind, .name = name}, gn_clock_monotonic_ns());
+    gn_show_act(&show->screen, &(struct gn_action){.kind = kind, .name = name},
+                gn_clock_monotonic_ns());
 }
 
 /* The sum of where nodes are: it differs between two poses. */
 static double pose_sum(const struct gn_show *show) {
     double sum = 0;
-    for (uint32_t i = 0; i < show->stage.scene->node_count; i++)
+    for (uint32_t i = 0; i < show->screen.stage.scene->node_count; i++)
         for (int k = 0; k < 12; k++)
-            sum += fabs((double)show->stage.pose.world_from_node[i][k / 3][k % 3]) * (1 + k);
+            sum += fabs((double)show->screen.stage.pose.world_from_node[i][k / 3][k % 3]) * (1 + k);
     return sum;
 }
 
@@ -70,11 +71,11 @@ static void clips_that_stand_draw_nothing(void **state) {
         struct gn_show *show = open_show(ini);
         until_still(show);
         act(show, GN_ACTION_PLAY, "gull");
-        assert_true(gn_show_wants_frame(show));
+        assert_true(gn_show_wants_frame(&show->screen));
         draw_frame(show);
-        show->kiosk.play.time_ns = show->kiosk.play.length_ns; /* it ends */
+        show->screen.kiosk.play.time_ns = show->screen.kiosk.play.length_ns; /* it ends */
         until_still(show);
-        assert_int_equal(show->stage.pose.at.over, -1);
+        assert_int_equal(show->screen.stage.pose.at.over, -1);
         gn_show_close(show);
     }
 }
@@ -82,11 +83,11 @@ static void clips_that_stand_draw_nothing(void **state) {
 static void play_past_its_fade(struct gn_show *show) {
     act(show, GN_ACTION_PLAY, "gull");
     draw_frame(show);
-    show->clips_begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
-    show->kiosk.play.time_ns = GN_NS_PER_S;
+    show->screen.clips_begun_ns -= 5 * GN_NS_PER_S; /* the fade is over */
+    show->screen.kiosk.play.time_ns = GN_NS_PER_S;
     draw_frame(show);
     draw_frame(show);
-    assert_true(show->stage.pose.at.fade == 1 && show->stage.pose.at.over >= 0);
+    assert_true(show->screen.stage.pose.at.fade == 1 && show->screen.stage.pose.at.over >= 0);
 }
 
 static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
@@ -96,17 +97,17 @@ static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
                                      "[kiosk]\ncaptions = no\nclip_fade = 5\n");
     until_warm(show);
     draw_frame(show);
-    assert_true(show->stage.pose.at.fade == 1);
+    assert_true(show->screen.stage.pose.at.fade == 1);
     double before = pose_sum(show);
     act(show, GN_ACTION_NEXT, NULL);
-    while (show->drawn.mode != 1) draw_frame(show);
-    assert_true(show->stage.pose.at.fade < 1);
+    while (show->screen.drawn.mode != 1) draw_frame(show);
+    assert_true(show->screen.stage.pose.at.fade < 1);
     assert_float_equal(pose_sum(show), before, 1e-2 * before);
     play_past_its_fade(show);
     before = pose_sum(show);
     act(show, GN_ACTION_PLAY, "gull");
     draw_frame(show);
-    assert_true(show->stage.pose.at.fade < 1);
+    assert_true(show->screen.stage.pose.at.fade < 1);
     assert_float_equal(pose_sum(show), before, 1e-2 * before);
     gn_show_close(show);
 }
@@ -120,16 +121,17 @@ static void settings_that_change_start_no_clip_again(void **state) {
     until_warm(show);
     play_past_its_fade(show);
     for (int i = 0; i < 20; i++) {
-        gn_show_enter(show);
+        gn_show_enter(&show->screen);
         draw_frame(show);
-        assert_true(show->stage.pose.at.fade == 1);
+        assert_true(show->screen.stage.pose.at.fade == 1);
     }
     gn_show_close(show);
 }
 
 static int64_t clip_ns(const struct gn_show *show) {
-    return gn_pose_clip_ns(&show->stage.pose.at.run, INT64_MAX,
-                           show->stage.pose.at.time_ns - show->stage.pose.at.begun_ns);
+    return gn_pose_clip_ns(&show->screen.stage.pose.at.run, INT64_MAX,
+                           show->screen.stage.pose.at.time_ns -
+                               show->screen.stage.pose.at.begun_ns);
 }
 
 static void a_mode_that_restarts_begins_its_clips(void **state) {
@@ -139,19 +141,19 @@ static void a_mode_that_restarts_begins_its_clips(void **state) {
                                      "animation_loop = once\nanimation_start = 1\n"
                                      "[kiosk]\ncaptions = no\nclip_fade = 0\n");
     until_warm(show);
-    show->kiosk.scene_ns += 1000 * GN_NS_PER_S;
+    show->screen.kiosk.scene_ns += 1000 * GN_NS_PER_S;
     act(show, GN_ACTION_NEXT, NULL);
-    while (show->drawn.mode != 1) draw_frame(show);
+    while (show->screen.drawn.mode != 1) draw_frame(show);
     const int64_t first_ns = clip_ns(show);
     assert_true(first_ns >= GN_NS_PER_S && first_ns < 3 * GN_NS_PER_S);
-    show->kiosk.scene_ns += 1000 * GN_NS_PER_S; /* its end */
+    show->screen.kiosk.scene_ns += 1000 * GN_NS_PER_S; /* its end */
     until_still(show);
     act(show, GN_ACTION_MODE, "B");
-    assert_true(gn_show_wants_frame(show));
+    assert_true(gn_show_wants_frame(&show->screen));
     draw_frame(show);
     assert_true(clip_ns(show) < 3 * GN_NS_PER_S);
     act(show, GN_ACTION_PREV, NULL);
-    while (show->drawn.mode != 0) draw_frame(show);
+    while (show->screen.drawn.mode != 0) draw_frame(show);
     assert_true(clip_ns(show) > 1999 * GN_NS_PER_S);
     gn_show_close(show);
 }

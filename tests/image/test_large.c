@@ -48,8 +48,10 @@ static struct gn_show *open_show(void) {
 }
 
 static enum work work_of(const struct gn_show *show) {
-    if (show->scenes.staged)
-        return !show->scenes.view.pose ? BEGINS : show->scenes.whole ? WARMS : UPLOADS;
+    if (show->screen.staged.loaded)
+        return !show->screen.staged.view.pose ? BEGINS
+               : show->screen.staged.whole    ? WARMS
+                                              : UPLOADS;
     return show->reload.options ? READS : CALM;
 }
 

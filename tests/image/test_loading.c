@@ -105,7 +105,8 @@ static void frames(struct gn_show *show, unsigned count) {
 }
 
 static bool is_shown(const struct gn_show *show, const char *scene) {
-    return !show->reload.options && strcmp(show->scenes.paths[show->drawn.scene], scene) == 0;
+    return !show->reload.options &&
+           strcmp(show->scenes.paths[show->screen.drawn.scene], scene) == 0;
 }
 
 static void wait_for_importer(struct gn_show *show) {
@@ -127,7 +128,7 @@ static void frames_go_on_during_a_reload_and_a_later_one_replaces_it(void **stat
     frames(show, 20);
     assert_non_null(show->reload.options);
     assert_int_equal(gn_loader_number(show->scenes.loader), GN_SHOW_RELOAD);
-    assert_string_equal(show->scenes.paths[show->drawn.scene], good);
+    assert_string_equal(show->scenes.paths[show->screen.drawn.scene], good);
 
     /* the later one, and the importer is gone */
     write_config(other);
@@ -149,7 +150,7 @@ static const char *write_huge(void) {
 
 static void wait_for_staging(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (!gn_show_reload_is_staged(show)) {
+    while (!gn_show_reload_is_staged(&show->screen)) {
         help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
@@ -159,24 +160,24 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     (void)state;
     struct gn_show *show = open_show(good);
     frames(show, 2);
-    const struct gn_gl *gl = show->stage.gl;
+    const struct gn_gl *gl = show->screen.stage.gl;
     write_config(write_huge());
     show->reloads = true;
     wait_for_staging(show);
     frames(show, 20); /* a megabyte in each */
-    assert_true(gn_show_reload_is_staged(show));
-    assert_string_equal(show->scenes.paths[show->drawn.scene], good);
+    assert_true(gn_show_reload_is_staged(&show->screen));
+    assert_string_equal(show->scenes.paths[show->screen.drawn.scene], good);
 
     /* the mode may change meanwhile */
     const struct gn_action pcf = {.kind = GN_ACTION_MODE, .name = "pcf"};
-    gn_show_act(show, &pcf, gn_clock_monotonic_ns());
+    gn_show_act(&show->screen, &pcf, gn_clock_monotonic_ns());
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!is_shown(show, in_folder("huge.gltf"))) {
         frames(show, 1);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
-    assert_string_equal(show->modes.names[show->kiosk.shown.mode], "pcf");
-    assert_ptr_equal(show->stage.gl, gl);
+    assert_string_equal(show->modes.names[show->screen.kiosk.shown.mode], "pcf");
+    assert_ptr_equal(show->screen.stage.gl, gl);
 
     /* without room for two on the GPU the old one goes first */
     write_config(good);
@@ -195,7 +196,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     write_config(in_folder("huge.gltf"));
     show->reloads = true;
     help_show_step(show);
-    assert_false(gn_show_reload_is_staged(show));
+    assert_false(gn_show_reload_is_staged(&show->screen));
     gn_show_close(show);
 }
 
@@ -274,13 +275,13 @@ static void no_bar_is_waited_for_without_a_lit_screen(void **state) {
     (void)state;
     write_importer(false);
     struct gn_show *show = open_show(in_folder("slow.obj"));
-    bool *lit = &show->stage.display.screen.lit, *dark = &show->drawn.dark;
+    bool *lit = &show->screen.stage.display.screen.lit, *dark = &show->screen.drawn.dark;
     frames(show, 1);
-    assert_true(gn_show_bar_due_ns(show) < INT64_MAX);
+    assert_true(gn_show_bar_due_ns(&show->screen) < INT64_MAX);
     *lit = false;
-    assert_true(gn_show_bar_due_ns(show) == INT64_MAX);
+    assert_true(gn_show_bar_due_ns(&show->screen) == INT64_MAX);
     *lit = *dark = true;
-    assert_true(gn_show_bar_due_ns(show) == INT64_MAX);
+    assert_true(gn_show_bar_due_ns(&show->screen) == INT64_MAX);
     gn_show_close(show);
 }
 

@@ -36,7 +36,7 @@ static void frames(struct gn_show *show, unsigned count) {
 /* And wakes it, as what a button is behind would. */
 static void act(struct gn_show *show, enum gn_action_kind kind) {
     static const uint64_t one = 1;
-    gn_show_act(show, &(struct gn_action){.kind = kind}, gn_clock_monotonic_ns());
+    gn_show_act(&show->screen, &(struct gn_action){.kind = kind}, gn_clock_monotonic_ns());
     assert_int_equal(write(gn_loader_fd(show->scenes.loader), &one, sizeof one), sizeof one);
 }
 
@@ -45,19 +45,19 @@ static void until_warm(struct gn_show *show) {
     do {
         help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
-    } while (show->counts.frames == 0 || gn_show_has_work(show));
+    } while (show->counts.frames == 0 || gn_show_has_work(&show->screen));
 }
 
 static void read_picture(struct gn_show *show, uint8_t out[4 * PIXELS]) {
     struct gn_err err = {0};
-    if (!gn_gl_read_rgba8(show->stage.gl, out, &err)) fail_msg("%s", err.text);
+    if (!gn_gl_read_rgba8(show->screen.stage.gl, out, &err)) fail_msg("%s", err.text);
 }
 
 /* ---- modes ---- */
 
 static uint64_t map_bytes(const struct gn_show *show) {
     uint64_t bytes = 0;
-    for (int i = 0; i < GN_GL_MAPS_MAX; i++) bytes += show->stage.gl->targets.maps[i].bytes;
+    for (int i = 0; i < GN_GL_MAPS_MAX; i++) bytes += show->screen.stage.gl->targets.maps[i].bytes;
     return bytes;
 }
 
@@ -69,20 +69,21 @@ static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
     assert_true(shown_bytes > 1000000);
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     unsigned busy = 0;
-    while (gn_show_has_work(show)) {
-        const uint64_t made = show->stage.gl->programs.made, proofs = show->stage.gl->probed;
+    while (gn_show_has_work(&show->screen)) {
+        const uint64_t made = show->screen.stage.gl->programs.made,
+                       proofs = show->screen.stage.gl->probed;
         const uint64_t before = show->counts.frames;
         help_show_step(show);
         assert_true(show->counts.frames - before <= 1);
-        if (proofs == show->stage.gl->probed)
-            assert_true(show->stage.gl->programs.made - made <= 1);
-        busy += show->stage.gl->programs.made > made;
+        if (proofs == show->screen.stage.gl->probed)
+            assert_true(show->screen.stage.gl->programs.made - made <= 1);
+        busy += show->screen.stage.gl->programs.made > made;
         assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
     }
     assert_true(busy >= 8); /* there was something to do at all */
     /* no maps of other modes; as the camera turns, those shown get pages */
     assert_true(map_bytes(show) <= 2 * shown_bytes);
-    assert_int_equal(show->looks.ready, (1u << show->modes.count) - 1);
+    assert_int_equal(show->screen.looks.ready, (1u << show->modes.count) - 1);
     gn_show_close(show);
 }
 
@@ -99,23 +100,23 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
         const size_t now = mallinfo2().uordblks;
         most = now > most ? now : most;
     }
-    const uint64_t objects = gn_gl_stats(show->stage.gl).objects_created,
-                   made = show->stage.gl->programs.made;
+    const uint64_t objects = gn_gl_stats(show->screen.stage.gl).objects_created,
+                   made = show->screen.stage.gl->programs.made;
     const unsigned long allocations = gn_alloc_count();
     for (int i = 0; i < switches; i++) {
-        const int next = (show->kiosk.shown.mode + 1) % show->modes.count;
+        const int next = (show->screen.kiosk.shown.mode + 1) % show->modes.count;
         act(show, GN_ACTION_NEXT);
         frames(show, 1);
-        assert_int_equal(show->drawn.mode, next);
-        const struct gn_light_opts *any = &show->stage.shown.opts.shadow.any;
+        assert_int_equal(show->screen.drawn.mode, next);
+        const struct gn_light_opts *any = &show->screen.stage.shown.opts.shadow.any;
         assert_string_equal(
             show->modes.names[next],
             gn_techniques[GN_LIGHT_HAS(any, technique) ? any->technique : GN_TECHNIQUE_PCF].name);
         const size_t now = mallinfo2().uordblks;
         if (i >= switches / 2 && now < least) least = now;
     }
-    assert_int_equal(gn_gl_stats(show->stage.gl).objects_created, objects);
-    assert_int_equal(show->stage.gl->programs.made, made);
+    assert_int_equal(gn_gl_stats(show->screen.stage.gl).objects_created, objects);
+    assert_int_equal(show->screen.stage.gl->programs.made, made);
     assert_int_equal(gn_alloc_count(), allocations);
     /* A software driver's scratch, megabytes of it, comes and goes; what is lost stays. */
     if (least > most) fail_msg("%zu bytes more", least - most);
@@ -131,7 +132,7 @@ static int by_size(const void *a, const void *b) {
 static int64_t frame_ns(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     frames(show, 1);
-    gn_gl_wait(show->stage.gl);
+    gn_gl_wait(show->screen.stage.gl);
     return gn_clock_process_cpu_ns() - begun_ns;
 }
 
@@ -148,7 +149,7 @@ static void a_switch_takes_no_more_than_two_frames(void **state) {
         const int round = i / show->modes.count;
         act(show, GN_ACTION_NEXT);
         const int64_t now_ns = frame_ns(show);
-        const int mode = show->drawn.mode;
+        const int mode = show->screen.drawn.mode;
         if (now_ns < switch_ns[mode]) switch_ns[mode] = now_ns;
         for (int k = 0; k < STEADY; k++) steady_ns[mode][STEADY * round + k] = frame_ns(show);
     }
@@ -169,17 +170,17 @@ static void what_is_not_ready_keeps_the_old_picture(void **state) {
     struct gn_show *show = OPEN("--turntable", "10");
     frames(show, 1);
     act(show, GN_ACTION_PREV); /* the last of the list: not made yet */
-    const int wanted = show->kiosk.wanted.mode;
-    assert_int_equal(show->looks.ready >> wanted & 1, 0);
+    const int wanted = show->screen.kiosk.wanted.mode;
+    assert_int_equal(show->screen.looks.ready >> wanted & 1, 0);
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (show->drawn.mode != wanted) {
-        const uint64_t made = show->stage.gl->programs.made;
+    while (show->screen.drawn.mode != wanted) {
+        const uint64_t made = show->screen.stage.gl->programs.made;
         /* while frames are slow, work takes turns with them */
-        const bool was_ready = show->looks.ready >> wanted & 1 && !show->ahead.alone;
+        const bool was_ready = show->screen.looks.ready >> wanted & 1 && !show->screen.ahead.alone;
         help_show_step(show);
-        if (was_ready) assert_int_equal(show->drawn.mode, wanted);
-        if (show->drawn.mode == wanted) /* nothing of it was left to be made for its frame */
-            assert_true(show->stage.gl->programs.made - made <= 1);
+        if (was_ready) assert_int_equal(show->screen.drawn.mode, wanted);
+        if (show->screen.drawn.mode == wanted) /* nothing of it was left to be made for its frame */
+            assert_true(show->screen.stage.gl->programs.made - made <= 1);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     gn_show_close(show);
@@ -191,9 +192,9 @@ static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
     struct gn_show *show = OPEN("--no-animation");
     frames(show, 1);
     act(show, GN_ACTION_PREV);
-    const int wanted = show->kiosk.wanted.mode;
+    const int wanted = show->screen.kiosk.wanted.mode;
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (show->drawn.mode != wanted) {
+    while (show->screen.drawn.mode != wanted) {
         help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
@@ -203,7 +204,7 @@ static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
 /* What programs of other modes take, by dropping them, of all that is taken without. */
 static double share_of_idle(struct gn_show *show) {
     const double with = (double)gn_memory_allocated();
-    gn_gl_drop_programs(show->stage.gl, &(struct gn_gl_idle){0});
+    gn_gl_drop_programs(show->screen.stage.gl, &(struct gn_gl_idle){0});
     return with / (double)gn_memory_allocated() - 1;
 }
 
@@ -213,31 +214,31 @@ static void programs_of_other_modes_are_within_their_share(void **state) {
     struct gn_show *show = OPEN("--limit", "ahead_percent=10", "--no-animation");
     gn_memory_pretend_mb(1024); /* a board */
     until_warm(show);
-    assert_int_equal(show->looks.made, (1u << show->modes.count) - 1);
-    assert_int_equal(show->looks.ready, 1u << show->kiosk.shown.mode);
+    assert_int_equal(show->screen.looks.made, (1u << show->modes.count) - 1);
+    assert_int_equal(show->screen.looks.ready, 1u << show->screen.kiosk.shown.mode);
     read_picture(show, before);
     const double ahead = share_of_idle(show);
     if (ahead > 0.1) fail_msg("%.1f %%", 100 * ahead);
     uint64_t rounds[3] = {0};
     for (int i = 0; i < 3 * show->modes.count; i++) {
         uint64_t *most = &rounds[i / show->modes.count];
-        const int next = (show->kiosk.shown.mode + 1) % show->modes.count;
+        const int next = (show->screen.kiosk.shown.mode + 1) % show->modes.count;
         const int64_t begun_ns = gn_clock_process_cpu_ns();
         act(show, GN_ACTION_NEXT);
-        while (show->drawn.mode != next) {
+        while (show->screen.drawn.mode != next) {
             help_show_step(show);
             assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
         }
-        while (gn_show_has_work(show)) help_show_step(show);
+        while (gn_show_has_work(&show->screen)) help_show_step(show);
         const uint64_t all = gn_memory_allocated(),
-                       idle = gn_gl_idle_programs(show->stage.gl).bytes,
+                       idle = gn_gl_idle_programs(show->screen.stage.gl).bytes,
                        share = (gn_memory_total_mb() << 20) / 16;
         assert_true(idle <= all - idle || idle <= share);
         if (all > *most) *most = all;
     }
     assert_true(rounds[2] < rounds[1] + rounds[1] / 10);
-    show->changed = true; /* without the caption of the last change */
-    while (show->kiosk.caption || gn_show_wants_frame(show)) help_show_step(show);
+    show->screen.changed = true; /* without the caption of the last change */
+    while (show->screen.kiosk.caption || gn_show_wants_frame(&show->screen)) help_show_step(show);
     read_picture(show, after);
     assert_memory_equal(before, after, sizeof before);
     gn_memory_pretend_mb(0);
@@ -250,7 +251,7 @@ static void flags_leave_one_technique(void **state) {
     assert_int_equal(show->modes.count, 1);
     act(show, GN_ACTION_NEXT);
     frames(show, 2);
-    assert_int_equal(show->kiosk.shown.mode, 0);
+    assert_int_equal(show->screen.kiosk.shown.mode, 0);
     gn_show_close(show);
 }
 
@@ -260,8 +261,8 @@ static void the_page_names_the_scene_inside_the_program(void **state) {
     frames(show, 1);
     act(show, GN_ACTION_INFO);
     frames(show, 1);
-    if (!strstr(show->text.page.text, "\nScene: default scene\n"))
-        fail_msg("%s", show->text.page.text);
+    if (!strstr(show->screen.text.page.text, "\nScene: default scene\n"))
+        fail_msg("%s", show->screen.text.page.text);
     gn_show_close(show);
 }
 
@@ -275,19 +276,19 @@ static void pause_stands_and_blank_is_dark(void **state) {
     frames(show, 2);
     act(show, GN_ACTION_PAUSE);
     help_show_step(show);
-    const int64_t stood_ns = show->drawn.time_ns;
-    while (show->kiosk.caption || gn_show_wants_frame(show)) help_show_step(show);
-    assert_int_equal(show->drawn.time_ns, stood_ns);
+    const int64_t stood_ns = show->screen.drawn.time_ns;
+    while (show->screen.kiosk.caption || gn_show_wants_frame(&show->screen)) help_show_step(show);
+    assert_int_equal(show->screen.drawn.time_ns, stood_ns);
     read_picture(show, before);
     act(show, GN_ACTION_BLANK);
     help_show_step(show);
-    assert_true(show->stage.display.screen.blank);
-    assert_false(gn_show_wants_frame(show));
+    assert_true(show->screen.stage.display.screen.blank);
+    assert_false(gn_show_wants_frame(&show->screen));
     const uint64_t dark = show->counts.frames;
     act(show, GN_ACTION_NEXT_CAMERA); /* lights it, and no more */
     help_show_step(show);
-    assert_false(show->stage.display.screen.blank);
-    assert_int_equal(show->kiosk.camera, 0);
+    assert_false(show->screen.stage.display.screen.blank);
+    assert_int_equal(show->screen.kiosk.camera, 0);
     assert_true(show->counts.frames - dark <= 1);
     read_picture(show, after);
     assert_memory_equal(before, after, sizeof before);
@@ -308,12 +309,12 @@ static void a_fade_begins_with_the_old_picture(void **state) {
     until_warm(show);
     read_picture(show, old);
     act(show, GN_ACTION_NEXT); /* no shadows at all */
-    while (show->drawn.mode == show->modes.first) help_show_step(show);
+    while (show->screen.drawn.mode == show->modes.first) help_show_step(show);
     read_picture(show, first);
     unsigned worst = 0, all = 0;
-    show->rules.fade_ns = 0; /* over */
-    show->kiosk.fade_begun_ns = 0;
-    show->changed = true;
+    show->screen.rules.fade_ns = 0; /* over */
+    show->screen.kiosk.fade_begun_ns = 0;
+    show->screen.changed = true;
     frames(show, 1);
     read_picture(show, none);
     for (int i = 0; i < 4 * PIXELS; i++) {
@@ -334,22 +335,22 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
     struct gn_show *show =
         OPEN("assets/bench/s1.glb", "assets/sundial.glb", "--shadow", "pcf", "--turntable", "10");
     until_warm(show);
-    const char *name = show->stage.scene->name;
+    const char *name = show->screen.stage.scene->name;
     act(show, GN_ACTION_NEXT_SCENE);
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (show->drawn.scene == 0) {
-        const uint64_t made = show->stage.gl->programs.made;
+    while (show->screen.drawn.scene == 0) {
+        const uint64_t made = show->screen.stage.gl->programs.made;
         help_show_step(show);
-        if (show->drawn.scene != 0) /* nothing of it was left to be made for its frame */
-            assert_true(show->stage.gl->programs.made - made <= 1);
-        if (show->scenes.shown == 0) assert_ptr_equal(show->stage.scene->name, name);
+        if (show->screen.drawn.scene != 0) /* nothing of it was left to be made for its frame */
+            assert_true(show->screen.stage.gl->programs.made - made <= 1);
+        if (show->screen.scene == 0) assert_ptr_equal(show->screen.stage.scene->name, name);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
-    assert_null(show->scenes.staged);
-    assert_int_equal(show->stage.scene->triangle_count > 0, 1);
+    assert_null(show->screen.staged.loaded);
+    assert_int_equal(show->screen.stage.scene->triangle_count > 0, 1);
     until_warm(show);
     act(show, GN_ACTION_NEXT_SCENE); /* and back */
-    while (show->drawn.scene == 1) help_show_step(show);
+    while (show->screen.drawn.scene == 1) help_show_step(show);
     gn_show_close(show);
 }
 
@@ -363,13 +364,13 @@ static void a_bad_scene_changes_nothing(void **state) {
         OPEN("assets/bench/s1.glb", path, "--shadow", "pcf", "--turntable", "10");
     frames(show, 2);
     act(show, GN_ACTION_NEXT_SCENE);
-    assert_true(gn_kiosk_waits(&show->kiosk));
+    assert_true(gn_kiosk_waits(&show->screen.kiosk));
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (gn_kiosk_waits(&show->kiosk)) {
+    while (gn_kiosk_waits(&show->screen.kiosk)) {
         help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
-    assert_int_equal(show->drawn.scene, 0);
+    assert_int_equal(show->screen.drawn.scene, 0);
     assert_non_null(strstr(gn_problem_last(&show->problems), "bad.glb"));
     frames(show, 2);
     gn_show_close(show);
@@ -382,7 +383,7 @@ static void the_end_does_not_wait_for_a_scene(void **state) {
     frames(show, 1);
     act(show, GN_ACTION_NEXT_SCENE);
     help_show_step(show);
-    assert_true(gn_loader_is_busy(show->scenes.loader) || show->scenes.staged);
+    assert_true(gn_loader_is_busy(show->scenes.loader) || show->screen.staged.loaded);
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     gn_show_close(show);
     assert_true(gn_clock_process_cpu_ns() - begun_ns < 2 * GN_NS_PER_S);

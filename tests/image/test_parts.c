@@ -79,8 +79,8 @@ static void settle(struct gn_show *show) {
         wake.due_ns = gn_clock_monotonic_ns() + GN_NS_PER_S / 100;
         help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
-    } while (show->reloads || show->reload.options || gn_show_is_stale(show) ||
-             gn_kiosk_waits(&show->kiosk) || !has_health(show));
+    } while (show->reloads || show->reload.options || gn_show_is_stale(&show->screen) ||
+             gn_kiosk_waits(&show->screen.kiosk) || !has_health(show));
     gn_loop_remove_timer(&wake);
 }
 
@@ -102,9 +102,10 @@ static void enter(struct gn_show *show, enum state state) {
         [BLANKED] = {.kind = GN_ACTION_BLANK, .turn = GN_TURN_ON},
         [INFO] = {.kind = GN_ACTION_INFO, .turn = GN_TURN_ON},
     };
-    if (actions[state].kind) gn_show_act(show, &actions[state], gn_loop_now_ns(show->loop));
+    if (actions[state].kind)
+        gn_show_act(&show->screen, &actions[state], gn_loop_now_ns(show->loop));
     settle(show);
-    assert_int_equal(show->kiosk.asleep, state == ASLEEP);
+    assert_int_equal(show->screen.kiosk.asleep, state == ASLEEP);
     if (state != LOADING) return;
     show->reloads = true;
     help_show_step(show);
@@ -112,14 +113,14 @@ static void enter(struct gn_show *show, enum state state) {
 }
 
 static void reload(struct gn_show *show) {
-    const struct gn_kiosk before = show->kiosk;
+    const struct gn_kiosk before = show->screen.kiosk;
     show->reloads = true;
     settle(show);
     if (show->config.options->config_error) fail_msg("%s", show->config.options->config_error);
-    assert_int_equal(show->kiosk.blanked, before.blanked);
-    assert_int_equal(show->kiosk.asleep, before.asleep);
-    assert_int_equal(show->kiosk.woken, before.woken);
-    assert_true(show->kiosk.used_ns >= before.used_ns);
+    assert_int_equal(show->screen.kiosk.blanked, before.blanked);
+    assert_int_equal(show->screen.kiosk.asleep, before.asleep);
+    assert_int_equal(show->screen.kiosk.woken, before.woken);
+    assert_true(show->screen.kiosk.used_ns >= before.used_ns);
 }
 
 /* ---- what a part does, as a text --------------------------------------------------------------
@@ -258,9 +259,9 @@ static void each_part_follows_its_settings_at_a_reload(void **state) {
 /* ---- survival -------------------------------------------------------------------------------- */
 
 static void lose_context(struct gn_show *show) {
-    show->stage.display.screen.generation++;
+    show->screen.stage.display.screen.generation++;
     settle(show);
-    assert_non_null(show->stage.gl);
+    assert_non_null(show->screen.stage.gl);
 }
 
 /* Is there a source of the loop in that memory? */

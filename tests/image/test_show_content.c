@@ -61,9 +61,9 @@ static int teardown(void **state) {
 
 static void until_mode_is(struct gn_show *show, const char *name) {
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (strcmp(show->modes.names[show->drawn.mode], name) != 0) {
+    while (strcmp(show->modes.names[show->screen.drawn.mode], name) != 0) {
         if (gn_clock_monotonic_ns() - begun_ns > PATIENCE_NS)
-            fail_msg("the mode is %s", show->modes.names[show->drawn.mode]);
+            fail_msg("the mode is %s", show->modes.names[show->screen.drawn.mode]);
         help_show_step(show);
     }
 }
@@ -110,7 +110,7 @@ static void what_is_refused_is_tried_again_when_it_changes(void **state) {
     gn_parts_loaded(&show->parts, GN_PART_LOAD_SCENE);
     gn_parts_look(&show->parts);
     assert_null(show->reload.options); /* none has begun */
-    assert_string_equal(show->modes.names[show->drawn.mode], "A");
+    assert_string_equal(show->modes.names[show->screen.drawn.mode], "A");
     turn("b");
     until_mode_is(show, "B");
     assert_null(gn_problem_last(&show->problems));

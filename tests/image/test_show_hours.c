@@ -38,7 +38,7 @@ static int run_until(struct gn_show *show, int64_t until_ns) {
 }
 
 static void act(struct gn_show *show, enum gn_action_kind kind) {
-    gn_show_act(show, &(struct gn_action){.kind = kind}, clock_ns);
+    gn_show_act(&show->screen, &(struct gn_action){.kind = kind}, clock_ns);
 }
 
 static void idle_ends_the_page_at_its_time_and_then_nothing_is_drawn(void **state) {
@@ -50,10 +50,10 @@ static void idle_ends_the_page_at_its_time_and_then_nothing_is_drawn(void **stat
     uint64_t before = show->counts.frames;
     act(show, GN_ACTION_INFO);
     run_until(show, begun_ns + SECONDS(60) - FRAME_NS);
-    assert_true(show->drawn.info);
+    assert_true(show->screen.drawn.info);
     assert_in_range(show->counts.frames - before, 59, 62); /* the page is updated once a second */
     run_until(show, begun_ns + SECONDS(60) + FRAME_NS);
-    assert_false(show->drawn.info);
+    assert_false(show->screen.drawn.info);
     before = show->counts.frames;
     const int steps = run_until(show, begun_ns + SECONDS(8 * 3600));
     assert_int_equal(show->counts.frames, before);
@@ -63,7 +63,7 @@ static void idle_ends_the_page_at_its_time_and_then_nothing_is_drawn(void **stat
     const int64_t acted_ns = clock_ns;
     act(show, GN_ACTION_INFO);
     run_until(show, acted_ns + FRAME_NS);
-    assert_true(show->drawn.info);
+    assert_true(show->screen.drawn.info);
     gn_show_close(show);
 }
 
@@ -74,15 +74,15 @@ static void a_kiosk_of_two_modes_keeps_its_times_for_hours(void **state) {
                                      "no\n[render]\nlimit = ahead_percent=100000\n"
                                      "[mode \"a\"]\nshadow = hard\n[mode \"b\"]\nshadow = none\n");
     run_until(show, clock_ns + SECONDS(20));
-    const int64_t begun_ns = show->kiosk.used_ns;
+    const int64_t begun_ns = show->screen.kiosk.used_ns;
     const uint64_t before = show->counts.frames;
     const unsigned long allocations = show->counts.allocations;
-    assert_int_equal(show->drawn.mode, 0);
+    assert_int_equal(show->screen.drawn.mode, 0);
     for (int i = 1; i <= CHANGES; i++) {
         run_until(show, begun_ns + i * SECONDS(60) - 1);
-        assert_int_equal(show->drawn.mode, (i - 1) % 2);
+        assert_int_equal(show->screen.drawn.mode, (i - 1) % 2);
         run_until(show, begun_ns + i * SECONDS(60) + FRAME_NS);
-        assert_int_equal(show->drawn.mode, i % 2);
+        assert_int_equal(show->screen.drawn.mode, i % 2);
     }
     assert_int_equal(show->counts.frames - before, CHANGES);
     assert_int_equal(show->counts.allocations, allocations);
@@ -91,7 +91,7 @@ static void a_kiosk_of_two_modes_keeps_its_times_for_hours(void **state) {
 
 static void read_picture(struct gn_show *show, uint8_t out[4 * 64 * 64]) {
     struct gn_err err = {0};
-    if (!gn_gl_read_rgba8(show->stage.gl, out, &err)) fail_msg("%s", err.text);
+    if (!gn_gl_read_rgba8(show->screen.stage.gl, out, &err)) fail_msg("%s", err.text);
 }
 
 /* How many of the pixels differ where the second picture is the first one moved to the right and

@@ -67,14 +67,14 @@ static void is_told(struct cec_fake *fake, int times_on, int times_standby) {
 }
 
 static void act(struct gn_show *show, enum gn_action_kind kind, enum gn_turn turn, bool pressed) {
-    gn_show_act(show, &(struct gn_action){.kind = kind, .turn = turn, .pressed = pressed},
+    gn_show_act(&show->screen, &(struct gn_action){.kind = kind, .turn = turn, .pressed = pressed},
                 clock_ns);
     run_until(show, clock_ns + SECONDS(1));
 }
 
 static void set_hours(struct gn_show *show, bool ended) {
     const struct gn_kiosk_event event = {.kind = GN_KIOSK_HOURS, .time_ns = clock_ns, .by = ended};
-    show->kiosk = gn_kiosk_step(&show->rules, &show->kiosk, &event);
+    show->screen.kiosk = gn_kiosk_step(&show->screen.rules, &show->screen.kiosk, &event);
     run_until(show, clock_ns + SECONDS(1));
 }
 
@@ -89,7 +89,7 @@ static void each_night_is_one_standby_and_each_press_one_waking(void **state) {
     is_told(fake, 1, 0); /* at the start */
     set_hours(show, true);
     is_told(fake, 1, 1);
-    assert_true(show->stage.display.screen.blank); /* its picture is off as well */
+    assert_true(show->screen.stage.display.screen.blank); /* its picture is off as well */
     run_until(show, clock_ns + SECONDS(8 * 3600));
     for (int i = 0; i < 1000; i++) set_hours(show, true); /* as each look at the clock finds */
     is_told(fake, 1, 1);
@@ -103,7 +103,7 @@ static void each_night_is_one_standby_and_each_press_one_waking(void **state) {
     is_told(fake, 3, 3);
     set_hours(show, false);
     is_told(fake, 4, 3);
-    assert_false(show->stage.display.screen.blank);
+    assert_false(show->screen.stage.display.screen.blank);
     gn_show_close(show);
 }
 
@@ -113,10 +113,10 @@ static void a_reload_tells_nothing_again(void **state) {
                                      "[mode \"a\"]\nshadow = none\n");
     struct cec_fake *fake = cec_fake_new();
     take_fake(show, fake);
-    assert_true(show->rules.sleeps_black);
+    assert_true(show->screen.rules.sleeps_black);
     set_hours(show, true);
     is_told(fake, 0, 1);
-    assert_false(show->stage.display.screen.blank);                /* black */
+    assert_false(show->screen.stage.display.screen.blank);         /* black */
     gn_part_television.reopen(show->parts.of[GN_PART_television]); /* what a reload does */
     help_show_step(show);
     is_told(fake, 0, 1);

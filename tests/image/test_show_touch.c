@@ -31,11 +31,11 @@ static void run_for(struct gn_show *show, int64_t ns) {
 }
 
 static const struct gn_orbit *orbit_of(const struct gn_show *show) {
-    return &show->stage.shown.opts.view.orbit;
+    return &show->screen.stage.shown.opts.view.orbit;
 }
 
 static float turntable_of(const struct gn_show *show) {
-    return show->stage.shown.opts.view.turntable_rad;
+    return show->screen.stage.shown.opts.view.turntable_rad;
 }
 
 /* As events leave it, which are read in the step that follows. */
@@ -72,7 +72,7 @@ static void a_hand_turns_the_model_as_its_owner_sees_it(void **state) {
     for (int i = 0; i < 4; i++) {
         struct gn_show *show = run_by_hand(help_show((const char *const[]){
             "--no-animation", "--size", screens[i].size, "--rotate", screens[i].rotate, NULL}));
-        const struct gn_screen *screen = &show->stage.display.screen;
+        const struct gn_screen *screen = &show->screen.stage.display.screen;
         assert_int_equal(screen->rotate_deg, 90 * i);
         help_show_step(show);
 
@@ -84,7 +84,7 @@ static void a_hand_turns_the_model_as_its_owner_sees_it(void **state) {
         assert_turned(show, -M_PI / 4, M_PI / 8);
 
         /* the same in a window's unit, back; and a mouse's, which is not rotated with the screen */
-        struct gn_pointer *pointer = &show->stage.display.screen.pointer;
+        struct gn_pointer *pointer = &show->screen.stage.display.screen.pointer;
         for (int k = 0; k < 2; k++) pointer->turn[k] = -px[k] / (float)screen->height_px;
         help_show_step(show);
         assert_turned(show, 0, 0);
@@ -152,7 +152,7 @@ static void a_finger_that_stays_down_keeps_it_at_rest(void **state) {
     struct gn_show *show = open_show("[scene]\nturntable = 30\nturntable_rest = 2\n"
                                      "[mode \"a\"]\nshadow = none\n");
     run_for(show, SECONDS(20));
-    struct gn_pointer *pointer = &show->stage.display.screen.pointer;
+    struct gn_pointer *pointer = &show->screen.stage.display.screen.pointer;
     pointer->pressed = true; /* as a window's button is */
     help_show_step(show);
     run_for(show, SECONDS(1));
@@ -185,12 +185,12 @@ static void a_touch_of_a_dark_screen_lights_it_and_turns_nothing(void **state) {
     (void)state;
     struct gn_show *show = open_show("[mode \"a\"]\nshadow = none\n");
     help_show_step(show);
-    gn_show_act(show, &(struct gn_action){.kind = GN_ACTION_BLANK}, clock_ns);
+    gn_show_act(&show->screen, &(struct gn_action){.kind = GN_ACTION_BLANK}, clock_ns);
     run_for(show, SECONDS(1));
-    assert_true(gn_kiosk_is_dark(&show->kiosk));
+    assert_true(gn_kiosk_is_dark(&show->screen.kiosk));
     assert_true(devices_of(show)->suppresses_taps);
     drag(show, &devices_of(show)->glass, .25f, 0);
-    assert_false(gn_kiosk_is_dark(&show->kiosk));
+    assert_false(gn_kiosk_is_dark(&show->screen.kiosk));
     assert_false(devices_of(show)->suppresses_taps);
     assert_true(gn_orbit_is_zero(orbit_of(show)));
     drag(show, &devices_of(show)->glass, .25f, 0);

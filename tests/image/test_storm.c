@@ -77,7 +77,7 @@ static struct frame_times {
 
 /* Of the scene that is drawn; NULL: none is. */
 static struct frame_times *times_of(const struct gn_show *show) {
-    const char *path = show->scenes.paths[show->drawn.scene];
+    const char *path = show->scenes.paths[show->screen.drawn.scene];
     for (int i = 0; path && i < SCENES; i++) {
         const size_t length = strlen(path), tail = strlen(scenes[i]);
         if (length >= tail && strcmp(path + length - tail, scenes[i]) == 0) return &times[i];
@@ -93,7 +93,7 @@ static void note_frame(const struct gn_show *show, struct span span) {
 }
 
 static bool is_changing(const struct gn_show *show) {
-    return show->reloads || show->reload.options || gn_kiosk_waits(&show->kiosk);
+    return show->reloads || show->reload.options || gn_kiosk_waits(&show->screen.kiosk);
 }
 
 /* What the frames of each scene take by themselves. Casters that seem to have moved: the map is
@@ -101,7 +101,7 @@ static bool is_changing(const struct gn_show *show) {
 static void measure_calm(struct gn_show *show) {
     const struct gn_action next = {.kind = GN_ACTION_NEXT_SCENE};
     for (int i = 0; i < SCENES; i++) {
-        gn_show_act(show, &next, gn_clock_monotonic_ns());
+        gn_show_act(&show->screen, &next, gn_clock_monotonic_ns());
         do help_show_step(show);
         while (show->reload.first || is_changing(show));
         for (int k = 0; k < CALM_FRAMES; k++) help_show_step(show); /* work ahead, too */
@@ -109,8 +109,8 @@ static void measure_calm(struct gn_show *show) {
         struct gap gap = {0};
         uint64_t frames = show->counts.frames;
         for (int k = 0; t && k < CALM_FRAMES;) {
-            for (uint32_t n = 0; n < show->stage.scene->item_count; n++)
-                show->stage.pose.items[n].hash++;
+            for (uint32_t n = 0; n < show->screen.stage.scene->item_count; n++)
+                show->screen.stage.pose.items[n].hash++;
             help_show_step(show);
             if (show->counts.frames == frames) continue;
             frames = show->counts.frames;
@@ -242,7 +242,7 @@ static void nothing_waits_for_a_scene(void **state) {
             show->reloads = true;
         } else {
             const struct gn_action next = {.kind = GN_ACTION_NEXT_SCENE};
-            gn_show_act(show, &next, gn_clock_monotonic_ns());
+            gn_show_act(&show->screen, &next, gn_clock_monotonic_ns());
         }
         /* the next one comes in the middle of it, or, every fourth time, when it is done */
         const int64_t now_ns = gn_clock_monotonic_ns(), until_ns = now_ns + rand() % 500 * 1000000;

@@ -43,8 +43,8 @@ static void open_control(void *part) {
     struct gn_show *s = c->host->show;
     char path[GN_LISTEN_PATH_MAX];
     struct gn_err err = {0};
-    const char *named = s->stage.settings->kiosk.socket;
-    if (!named && (s->stage.display.ops->is_window || !gn_listen_default(path, sizeof path)))
+    const char *named = s->screen.stage.settings->kiosk.socket;
+    if (!named && (s->screen.stage.display.ops->is_window || !gn_listen_default(path, sizeof path)))
         return;
     c->screenshot_late =
         (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = give_up_screenshot, .user = s};
@@ -88,10 +88,10 @@ static json_t *answer_action(struct gn_show *s, const struct gn_request *r, stru
         gn_fail_prefix(err, "%s", row->name);
         return NULL;
     }
-    if (!gn_show_check_action(s, &action, err)) return NULL;
-    const bool was_dark = s->kiosk.blanked;
-    gn_show_act(s, &action, now_ns);
-    if (was_dark && action.kind != GN_ACTION_BLANK) gn_show_act(s, &action, now_ns);
+    if (!gn_show_check_action(&s->screen, &action, err)) return NULL;
+    const bool was_dark = s->screen.kiosk.blanked;
+    gn_show_act(&s->screen, &action, now_ns);
+    if (was_dark && action.kind != GN_ACTION_BLANK) gn_show_act(&s->screen, &action, now_ns);
     return gn_parts_status(&s->parts, true);
 }
 
@@ -100,8 +100,8 @@ static json_t *answer_action(struct gn_show *s, const struct gn_request *r, stru
 static json_t *answer_set(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const struct gn_option_row *row = gn_changes_find(r->words[0], err);
     char text[1024];
-    if (!row || !gn_show_set_option(s, row, r->words[1], err)) return NULL;
-    gn_settings_text(s->stage.settings, row, text, sizeof text);
+    if (!row || !gn_show_set_option(&s->screen, row, r->words[1], err)) return NULL;
+    gn_settings_text(s->screen.stage.settings, row, text, sizeof text);
     return json_pack("{s:s, s:o}", "key", row->name, "value", gn_reply_text(text));
 }
 
@@ -109,7 +109,7 @@ static json_t *answer_get(struct gn_show *s, const struct gn_request *r, struct 
     const struct gn_option_row *row = gn_changes_find(r->words[0], err);
     char text[1024];
     if (!row) return NULL;
-    const struct gn_settings *o = s->stage.settings;
+    const struct gn_settings *o = s->screen.stage.settings;
     const bool given = gn_settings_source(o, row->offset) != GN_SOURCE_DEFAULT;
     gn_settings_text(o, row, text, sizeof text);
     return json_pack("{s:s, s:o, s:o}", "key", row->name, "value", gn_reply_text(text), "from",
@@ -120,17 +120,17 @@ static json_t *answer_get(struct gn_show *s, const struct gn_request *r, struct 
 
 /* Why the screen shows nothing; NULL: it shows a picture, or soon will. */
 static const char *why_dark(const struct gn_show *s) {
-    const struct gn_screen *screen = &s->stage.display.screen;
-    if (s->kiosk.asleep && !s->kiosk.woken)
+    const struct gn_screen *screen = &s->screen.stage.display.screen;
+    if (s->screen.kiosk.asleep && !s->screen.kiosk.woken)
         return "the screen is off, outside of the hours of [schedule]";
-    if (s->kiosk.blanked) return "the screen is switched off by blank";
+    if (s->screen.kiosk.blanked) return "the screen is switched off by blank";
     return screen->status[0] && !screen->lit ? screen->status : NULL;
 }
 
 /* A picture that says it, as large as the screen is or was. */
 static void begin_dark(struct gn_show *s, const char *why) {
-    const struct gn_screen *screen = &s->stage.display.screen;
-    const struct gn_size *size = &s->stage.settings->render.size;
+    const struct gn_screen *screen = &s->screen.stage.display.screen;
+    const struct gn_size *size = &s->screen.stage.settings->render.size;
     const bool known = screen->width_px > 0 && screen->height_px > 0,
                on_side = screen->rotate_deg % 180 != 0;
     const uint32_t width = known ? screen->width_px : (uint32_t)size->width_px,
@@ -147,7 +147,7 @@ static void begin_dark(struct gn_show *s, const char *why) {
 static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
                                  struct gn_err *err) {
     struct gn_show_control *c = s->control;
-    const char *folder = s->stage.settings->kiosk.screenshots;
+    const char *folder = s->screen.stage.settings->kiosk.screenshots;
     char target[PATH_MAX];
     if (!gn_screenshot_permits(r->words[0], r->fd, folder, target, err)) return NULL;
     if (c->screenshot) {
@@ -161,7 +161,7 @@ static json_t *answer_screenshot(struct gn_show *s, const struct gn_request *r,
         if (dark)
             begin_dark(s, dark);
         else
-            s->changed = true;
+            s->screen.changed = true;
     }
     return NULL;
 }
@@ -171,7 +171,7 @@ static void give_up_screenshot(void *user, int64_t now_ns) {
     struct gn_err err = {0};
     (void)now_ns;
     if (!gn_screenshot_is_asked(s->screenshot)) return;
-    gn_fail(&err, "screenshot: no frame came: %s", s->stage.display.screen.status);
+    gn_fail(&err, "screenshot: no frame came: %s", s->screen.stage.display.screen.status);
     gn_screenshot_fail(s->screenshot, &err);
 }
 

@@ -26,19 +26,19 @@ struct status {
 
 /* Of the wanted mode, as it will be entered; while another scene is wanted, of the one shown. */
 static uint32_t camera_of(const struct gn_show *s) {
-    const int wanted = s->kiosk.wanted.mode, shown = s->kiosk.shown.mode;
-    const bool same_scene =
-        gn_kiosk_scene(&s->rules, &s->kiosk.wanted) == gn_kiosk_scene(&s->rules, &s->kiosk.shown);
+    const int wanted = s->screen.kiosk.wanted.mode, shown = s->screen.kiosk.shown.mode;
+    const bool same_scene = gn_kiosk_scene(&s->screen.rules, &s->screen.kiosk.wanted) ==
+                            gn_kiosk_scene(&s->screen.rules, &s->screen.kiosk.shown);
     const int mode = same_scene ? wanted : shown;
-    const bool resets = mode != shown && s->rules.own_camera >> mode & 1;
-    const uint32_t first = (uint32_t)s->looks.of[mode].frame_opts.view.camera;
-    return (first + (resets ? 0 : s->kiosk.camera)) % s->stage.scene->camera_count;
+    const bool resets = mode != shown && s->screen.rules.own_camera >> mode & 1;
+    const uint32_t first = (uint32_t)s->screen.looks.of[mode].frame_opts.view.camera;
+    return (first + (resets ? 0 : s->screen.kiosk.camera)) % s->screen.stage.scene->camera_count;
 }
 
 /* What holds of the settings of single lights: {name: text}; NULL: there are none. */
 static json_t *lights_json(const struct gn_show *s) {
-    const struct gn_settings *o = s->stage.settings;
-    const struct gn_scene *scene = s->stage.scene;
+    const struct gn_settings *o = s->screen.stage.settings;
+    const struct gn_scene *scene = s->screen.stage.scene;
     json_t *lights = o->light_count > 0 ? json_object() : NULL;
     for (int i = 0; i < o->light_count; i++) {
         char holds[400];
@@ -66,13 +66,13 @@ static const void *kiosk_status(void *part) {
     static const char *const ranges[] = {"auto", "full", "limited"};
     struct status *v = part;
     const struct gn_show *s = v->host->show;
-    const struct gn_kiosk *k = &s->kiosk;
+    const struct gn_kiosk *k = &s->screen.kiosk;
     const struct gn_options *o = s->config.options;
-    const struct gn_display *display = &s->stage.display;
+    const struct gn_display *display = &s->screen.stage.display;
     const struct gn_latency_report latency = gn_latency_read(&s->buttons.latency);
-    const char *scene = s->scenes.paths[gn_kiosk_scene(&s->rules, &k->wanted)];
+    const char *scene = s->scenes.paths[gn_kiosk_scene(&s->screen.rules, &k->wanted)];
     const int clip = k->play.clip_plus_1 - 1;
-    const bool plays = clip >= 0 && (uint32_t)clip < s->stage.scene->animation.clip_count;
+    const bool plays = clip >= 0 && (uint32_t)clip < s->screen.stage.scene->animation.clip_count;
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     *v = (struct status){
         .host = v->host,
@@ -85,7 +85,7 @@ static const void *kiosk_status(void *part) {
         .paused = k->paused,
         .blanked = k->blanked,
         .info = k->info,
-        .plays = plays ? s->stage.scene->animation.clips[clip].name : NULL,
+        .plays = plays ? s->screen.stage.scene->animation.clips[clip].name : NULL,
         .waits = s->config.waits || gn_kiosk_waits(k),
         .modes = modes_json(&s->modes),
         .lights = lights_json(s),
@@ -171,7 +171,7 @@ static const void *scene_status(void *part) {
     struct scene *v = part;
     const struct gn_show *s = v->host->show;
     const char *past = s->config.past[0] ? s->config.past : "(configured)";
-    v->missing = s->stage.scene ? s->stage.scene->missing : NULL;
+    v->missing = s->screen.stage.scene ? s->screen.stage.scene->missing : NULL;
     v->rollback = s->config.has_past ? gn_json_make_text(past) : NULL;
     return v;
 }
