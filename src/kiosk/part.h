@@ -90,7 +90,7 @@ struct gn_part {
     /* Not called if neither begin nor open were. */
     void (*close)(void *part);
 };
-#define GN_PART_METRICS(table) .metrics = table, .metric_count = sizeof table / sizeof table[0]
+#define GN_PART_METRICS(table) .metrics = (table), .metric_count = sizeof(table) / sizeof(table)[0]
 
 /* Rows in the order in which they are opened, called and printed; they are closed in reverse. */
 #define GN_PART_TABLE(X)                                                                           \

@@ -136,9 +136,8 @@ static struct gn_material_record clamped(const struct gn_material_record *record
         float *x = (float *)&r + p->first;
         for (uint32_t k = 0; k < p->components; k++) x[k] = clamp(x[k], p->least, p->most);
     }
-    float *uv = (float *)r.uv;
-    const size_t floats = sizeof r.uv / (sizeof *uv);
-    for (size_t i = 0; i < floats; i++) uv[i] = clamp(uv[i], -UV_MOST, UV_MOST);
+    for (float *uv = (float *)r.uv; uv < (float *)(&r.uv + 1); uv++)
+        *uv = clamp(*uv, -UV_MOST, UV_MOST);
     return r;
 }
 
