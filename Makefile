@@ -187,7 +187,7 @@ COMPLETION := $(addprefix $(O)/completion/gnomon.,bash zsh fish)
 
 all: $(BIN) $(IMPORT) $(SCENES) man completion $(O)/gnomon.svg
 # what tests use: the sanitizers look at none of it but a library that gnomon-import loads
-HELPERS := $(if $(ASSIMP),$(B)/tests/hostile_assimp.so) $(if $(filter asan,$(CONFIG)),,$(filter %/tool_%,$(PROGS)) $(O)/host/make_truth $(O)/host/make_book \
+HELPERS := $(if $(ASSIMP),$(B)/tests/hostile_assimp.so) $(if $(filter asan,$(CONFIG)),,$(filter $(B)/tests/tool_%,$(PROGS)) $(O)/host/make_truth $(O)/host/make_book \
            $(addprefix $(B)/tests/,test_penumbra firstflip.so keyboard touchscreen television angle/libEGL.so.1))
 programs: $(BIN) $(IMPORT) $(SCENES) $(HELPERS) $(PROGRAMS)
 tests: programs $(PROGS)

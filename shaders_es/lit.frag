@@ -81,6 +81,7 @@ void main() {
         LAYERS_BEGIN(smooth_normal, s)
         vec3 light = ADDITIVE ? vec3(0.0) : surface_ambient(s, base.rgb);
         vec3 open = CATCHER ? surface_irradiance(s) * environment_scale() : light; // without shadows, of a catcher
+        if (!ADDITIVE) { LAYERS_AMBIENT(s) }
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
 #ifdef WITH_ENVIRONMENT_DIFFUSE // what full roughness reflects at an IOR of 1.5

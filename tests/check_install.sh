@@ -17,7 +17,7 @@ done > "$folder/out"
 (cd "$into" && find . -type f | sed 's,^\./,,' | sort) > "$folder/found"
 sh board/install.sh list | sort | cmp -s - "$folder/found" || complain "not in the list: $(sh board/install.sh list | sort | comm -13 - "$folder/found")"
 [ "$("$into/bin/gnomon" --version)" = "$("$gnomon" --version)" ] || complain 'the program'
-grep -q '^ExecStart=/opt/kiosk/bin/gnomon show$' "$into/lib/systemd/system/gnomon.service" || complain 'ExecStart'
+grep -q '^ExecStart=/opt/kiosk/bin/gnomon show -c /etc/gnomon/kiosk.ini$' "$into/lib/systemd/system/gnomon.service" || complain 'ExecStart'
 grep -q 'version="1.2.3" date="2026-01-02"' "$into/share/metainfo/gnomon.metainfo.xml" || complain 'the release in AppStream'
 for unit in gnomon gnomon@; do
     for line in Type=notify WatchdogSec= 'User=gnomon' 'NoNewPrivileges=yes' '\[Install\]'; do
@@ -26,7 +26,7 @@ for unit in gnomon gnomon@; do
 done
 
 for unit in gnomon-take gnomon-take@; do
-    for line in Type=oneshot 'ExecCondition=/opt/kiosk/bin/gnomon take$' 'ExecStart=.*/opt/kiosk/lib/gnomon/take ' NoNewPrivileges=yes; do
+    for line in Type=oneshot 'ExecCondition=/opt/kiosk/bin/gnomon take -c /etc/gnomon/kiosk.ini$' 'ExecStart=.*/opt/kiosk/lib/gnomon/take ' NoNewPrivileges=yes; do
         grep -q "^$line" "$into/lib/systemd/system/$unit.service" || complain "$unit.service: $line"
     done
     ! grep -q '^\[Install\]' "$into/lib/systemd/system/$unit.service" || complain "$unit.service is to be enabled by hand"

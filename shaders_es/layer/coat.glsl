@@ -14,10 +14,11 @@ void coat_begin(vec3 smooth_normal, inout surface s) {
     coat_share = FACTOR_COAT * TEXEL_COAT.r * environment_share(facing, coat_roughness, dot(smooth_normal, s.to_eye)).x;
     s.through *= 1.0 - coat_share;
     coat_sum = vec3(0.0);
-    if (ENVIRONMENT && !ADDITIVE) {
-        vec3 along = 2.0 * dot(coat_normal, s.to_eye) * coat_normal - s.to_eye;
-        coat_sum = surface_mirrored(environment_direction(along), coat_roughness);
-    }
+}
+
+void coat_ambient(surface s) {
+    vec3 along = 2.0 * dot(coat_normal, s.to_eye) * coat_normal - s.to_eye;
+    if (ENVIRONMENT) coat_sum = surface_mirrored(environment_direction(along), coat_roughness);
 }
 
 void coat_light(surface s, light_sample l, float seen) {

@@ -8,6 +8,8 @@ void transmission_begin(vec3 smooth_normal, inout surface s) {
     s.diffuse *= 1.0 - clear;
 }
 
+void transmission_ambient(surface s) {}
+
 void transmission_light(surface s, light_sample l, float seen) {}
 
 void transmission_end(surface s, inout vec3 color) {}

@@ -1,7 +1,8 @@
-// What a lit surface reflects, for lit.frag and the layers in layer/. A layer NAME defines three functions, which the composer calls
-// as LAYERS_BEGIN and so on, from the base upwards (src/scene/material.h, src/gl/compose.c):
-// NAME_begin(smooth_normal, s): what it takes of the surface below, and its ambient light
-// NAME_light(s, l, seen): adds one light; seen: visibility of highlights, 1 = lit
+// What a lit surface reflects, for lit.frag and the layers in layer/. A layer NAME defines four functions; those of all layers of the
+// program are called as LAYERS_BEGIN and so on, from the base upwards (src/scene/material.h, src/gl/compose.c):
+// NAME_begin(smooth_normal, s): what it takes of the surface below
+// NAME_ambient(s): adds what it reflects of the ambient light
+// NAME_light(s, l, seen): adds what it reflects of one light; seen: visibility of highlights, 1 = lit
 // NAME_end(s, color): puts it over the radiance of what is below
 // FACTOR_.. are its factors, TEXEL_.. texels of its textures, 1 where there is none.
 #include "lib/flat_constants.glsl"

@@ -13,15 +13,33 @@ struct bounds {
     double low[3], high[3];
 };
 
+/* Which vertices the triangles of a primitive have, one byte each: an accessor may hold those of
+ * other meshes, too, or some of no mesh, which lie anywhere. NULL: failed. */
+static const uint8_t *find_used(struct gn_baker *b, const json_t *primitive, size_t count) {
+    uint8_t *used = gn_bake_alloc(b, count + 1, sizeof *used);
+    const int64_t index = gn_bake_number(primitive, "indices");
+    struct gn_elements e = {0};
+    if (!used) return NULL;
+    if (index < 0) return memset(used, 1, count);
+    uint32_t *vertices = gn_document_accessor(b->in, (size_t)index, &e)
+                             ? gn_bake_alloc(b, e.count + 1, sizeof *vertices)
+                             : NULL;
+    if (!vertices || !gn_document_indices(b->in, (size_t)index, vertices)) {
+        b->failed = true;
+        return NULL;
+    }
+    for (size_t i = 0; i < e.count; i++)
+        if (vertices[i] < count) used[vertices[i]] = 1; /* others are an error: primitive.c */
+    return used;
+}
+
 /* False: not finite, or no positions of floats. */
-static bool add_positions(struct gn_baker *b, size_t accessor, struct bounds *bounds) {
-    struct gn_elements e;
-    if (!gn_document_accessor(b->in, accessor, &e)) return !(b->failed = true);
-    if (e.components != 3 || e.component != GN_COMPONENT_F32) return false;
-    for (size_t i = 0; i < e.count; i++) {
+static bool add_positions(const struct gn_elements *e, const uint8_t *used, struct bounds *bounds) {
+    if (e->components != 3 || e->component != GN_COMPONENT_F32) return false;
+    for (size_t i = 0; i < e->count; i++) {
         float p[3];
-        memcpy(p, e.data + i * e.stride, sizeof p);
-        for (int k = 0; k < 3; k++) {
+        memcpy(p, e->data + i * e->stride, sizeof p);
+        for (int k = 0; used[i] && k < 3; k++) {
             if (!(fabsf(p[k]) < 1e18f)) return false;
             bounds->low[k] = fmin(bounds->low[k], (double)p[k]);
             bounds->high[k] = fmax(bounds->high[k], (double)p[k]);
@@ -74,15 +92,18 @@ static struct gn_grid choose_grid(struct gn_baker *b, const json_t *mesh, size_t
         struct gn_elements e = {0};
         if (position < 0) continue;
         any = true;
-        floats &= add_positions(b, (size_t)position, &bounds);
-        if (b->failed || !gn_document_accessor(b->in, (size_t)position, &e)) return grid;
+        if (!gn_document_accessor(b->in, (size_t)position, &e)) b->failed = true;
+        const uint8_t *used = b->failed ? NULL : find_used(b, primitive, e.count);
+        if (!used) return grid;
+        floats &= add_positions(&e, used, &bounds);
+        gn_arena_reset(&b->step);
         vertices += e.count;
         *finite &= floats || e.component != GN_COMPONENT_F32;
         if (json_object_get(primitive, "targets") && grid.kind == GN_GRID_SHORTS)
             grid.kind = GN_GRID_FLOATS;
     }
     if (vertices / NODE_VERTICES < users) grid.kind = GN_GRID_FLOATS;
-    if (!floats || !any)
+    if (!floats || !any || bounds.low[0] > bounds.high[0])
         grid.kind = GN_GRID_NONE;
     else
         fit_grid(&grid, &bounds);

@@ -10,11 +10,11 @@
 #include "cli/bench_move.h"
 #include "cli/bench_report.h"
 #include "cli/commands.h"
-#include "cli/driver_cache.h"
 #include "cli/memory.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "image/write.h"
+#include "stage/driver_cache.h"
 #include "stage/stage.h"
 
 enum { WARM_UP = 10, BLOCK = 6, FRAMES_DEFAULT = 60, FPS = 60, MS_NS = 1000000, RENDERER = 96 };

@@ -34,10 +34,9 @@ static void check_surfaces(struct gn_inspection *in) {
         const bool transparent =
             m->base_color[3] < 1.0f || s->buffers.colors ||
             (texture >= 0 && s->pictures.images[s->pictures.textures[texture].image].has_alpha);
-        if (m->alpha != GN_ALPHA_OPAQUE && !transparent && !m->shadow_catcher)
-            gn_problem_add(&in->advice, "make it opaque: it is drawn faster, and casts",
-                           "material '%s' is %s, but nothing of it is transparent", m->name,
-                           m->alpha == GN_ALPHA_MASK ? "masked" : "blended");
+        if (m->alpha == GN_ALPHA_MASK && !transparent)
+            gn_problem_add(&in->advice, "make it opaque: it is drawn faster",
+                           "material '%s' is masked, but nothing of it is transparent", m->name);
     }
     uint32_t count = 0, material = 0; /* blended items that should cast; the first one's */
     for (uint32_t i = 0; i < s->item_count; i++) {

@@ -5,6 +5,7 @@
  * through the descriptor. See openat2(2), open(2) on O_PATH, proc_pid_fd(5). */
 #include "core/beneath.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -55,15 +56,56 @@ static int open_checked(int folder, const char *name) {
     return result;
 }
 
+static int open_exactly(int top, const char *name) {
+    const int fd = open_at2(top, name);
+    if (fd >= 0) return fd;
+    const bool is_plain = errno != EXDEV && errno != ELOOP && errno != EAGAIN && errno != ENOSYS &&
+                          errno != EPERM && errno != EINVAL;
+    return is_plain ? -errno : open_checked(top, name);
+}
+
+/* Replaces the part of a path from `part` on, `length` long, by the one entry of its folder that
+ * differs in case only. False: there is none, or more than one. */
+static bool match_part(int top, char *path, char *part, size_t length) {
+    const char kept = *part;
+    *part = 0;
+    const int folder = openat(top, *path ? path : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    *part = kept;
+    DIR *entries = folder >= 0 ? fdopendir(folder) : NULL;
+    char match[NAME_MAX + 1] = "";
+    int matches = 0;
+    for (const struct dirent *e; entries && matches < 2 && (e = readdir(entries));) {
+        if (strncasecmp(e->d_name, part, length) != 0 || e->d_name[length]) continue;
+        snprintf(match, sizeof match, "%s", e->d_name);
+        matches = strncmp(match, part, length) == 0 ? INT_MAX : matches + 1;
+    }
+    if (entries)
+        closedir(entries);
+    else if (folder >= 0)
+        close(folder);
+    if (matches == 1 || matches == INT_MAX) memcpy(part, match, length);
+    return matches == 1 || matches == INT_MAX;
+}
+
+/* Names of Windows may differ from the file's in case. */
+static int open_in_any_case(int top, const char *name) {
+    char path[PATH_MAX];
+    if (snprintf(path, sizeof path, "%s", name) >= (int)sizeof path) return -ENOENT;
+    for (char *part = path; *part;) {
+        const size_t length = strcspn(part, "/");
+        if (length > NAME_MAX || (length > 0 && !match_part(top, path, part, length)))
+            return -ENOENT;
+        part += length;
+        part += *part == '/';
+    }
+    return open_exactly(top, path);
+}
+
 int gn_open_beneath(const char *folder, const char *name) {
     const int top = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (top < 0) return -errno;
-    int fd = open_at2(top, name);
-    if (fd < 0) {
-        const bool is_plain = errno != EXDEV && errno != ELOOP && errno != EAGAIN &&
-                              errno != ENOSYS && errno != EPERM && errno != EINVAL;
-        fd = is_plain ? -errno : open_checked(top, name);
-    }
+    int fd = open_exactly(top, name);
+    if (fd == -ENOENT && *name != '/') fd = open_in_any_case(top, name);
     close(top);
     return fd;
 }

@@ -1,5 +1,6 @@
 #include "core/encoding.h"
 
+#include <ctype.h>
 #include <string.h>
 #include <strings.h>
 
@@ -18,6 +19,18 @@ size_t gn_percent_decode(const char *text, uint8_t *out) {
         text += low >= 0 ? 3 : 1;
     }
     return n;
+}
+
+size_t gn_uri_name(const char *uri, int number, char *out) {
+    const size_t whole = strlen(uri), bare = strcspn(uri, "?#");
+    if (number > 3 || (number > 1 && bare == whole)) return 0;
+    memcpy(out, uri, whole + 1);
+    if (number > 1) out[bare] = 0;
+    const size_t length = number % 2 == 0 ? gn_percent_decode(out, (uint8_t *)out) : strlen(out);
+    out[length] = 0;
+    for (size_t i = 0; i < length; i++)
+        if (out[i] == '\\') out[i] = '/';
+    return length;
 }
 
 bool gn_base64_decode(const char *text, size_t length, uint8_t *out, size_t *size) {
@@ -40,6 +53,15 @@ bool gn_base64_decode(const char *text, size_t length, uint8_t *out, size_t *siz
     return length % 4 != 1;
 }
 
+/* Percent-decoded, without white space; the length. */
+static size_t decode_text(const char *text, uint8_t *out) {
+    const size_t length = gn_percent_decode(text, out);
+    size_t n = 0;
+    for (size_t i = 0; i < length; i++)
+        if (!isspace(out[i])) out[n++] = out[i];
+    return n;
+}
+
 bool gn_data_uri_is(const char *uri) { return strncasecmp(uri, "data:", 5) == 0; }
 
 bool gn_data_uri_decode(const char *uri, uint8_t *out, size_t *size, const char **why) {
@@ -50,7 +72,7 @@ bool gn_data_uri_decode(const char *uri, uint8_t *out, size_t *size, const char 
     const size_t header = (size_t)(comma - uri), tail = sizeof mark - 1;
     *why = "data URI: not valid base64";
     if (header >= tail && strncasecmp(comma - tail, mark, tail) == 0)
-        return gn_base64_decode(comma + 1, strlen(comma + 1), out, size);
+        return gn_base64_decode((const char *)out, decode_text(comma + 1, out), out, size);
     *size = gn_percent_decode(comma + 1, out);
     return true;
 }

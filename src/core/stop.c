@@ -121,8 +121,17 @@ static void *wait_for_loop(void *started) {
     return NULL;
 }
 
+/* Those that end a process by default and that nothing here sends. A driver or library that wants
+ * one installs its handler later. */
+static void ignore_other_signals(void) {
+    static const int numbers[] = {SIGUSR1, SIGUSR2, SIGALRM, SIGVTALRM, SIGPROF, SIGIO, SIGPWR};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) signal(numbers[i], SIG_IGN);
+    for (int number = SIGRTMIN; number <= SIGRTMAX; number++) signal(number, SIG_IGN);
+}
+
 void gn_stop_end_late(int64_t after_ns) {
     static sem_t started;
+    ignore_other_signals();
     late_ns = after_ns;
     start_thread(wait_for_loop, &started);
 }

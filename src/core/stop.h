@@ -21,7 +21,8 @@ bool gn_stop_asked(void);
  * driver that compiles, a write to a FIFO without a reader), with exit status 128 + its number.
  * Buffered output is lost. */
 void gn_stop_end_process(void);
-/* For a program that takes the signals in a loop: if one is pending for longer than that, a thread
+/* For a program that takes the signals in a loop and runs for years: all others that would end it
+ * and are no fault of its own are ignored. And if one is pending for longer than that, a thread
  * removes the temporary file, calls what gn_stop_set_restore() gave it, and ends the process with
  * exit status 0. A GPU may take minutes for a frame, and nothing can be done meanwhile. */
 void gn_stop_end_late(int64_t after_ns);

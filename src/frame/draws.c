@@ -152,7 +152,7 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
     instance->surface[0] = m->roughness;
     instance->surface[1] = m->metalness;
     instance->surface[2] = m->occlusion_strength;
-    instance->surface[3] = in_parts ? GN_OPAQUE_ALPHA : m->alpha_cutoff;
+    instance->surface[3] = in_parts ? GN_OPAQUE_ALPHA : gn_material_least_alpha(m);
     if (s->casts) set_transmitted(m, instance);
     if (m->shadow_catcher) { /* centre of its square, 1 / half its side, 1 / side of the occluded
                                 part */

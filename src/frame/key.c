@@ -12,22 +12,15 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
     return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
 }
 
-/* Those that are not read where only light is added, with their bits of coordinates. */
-static uint64_t ambient_textures(void) {
-    uint64_t features = 0;
+/* What has no part in a program that only adds or transmits light. */
+static uint64_t ambient_features(void) {
+    uint64_t features = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
+                        GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
+                        GN_FEATURE(ENVIRONMENT_TURNED);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_texture_slots[slot].shading == GN_SHADING_EMISSION ||
             gn_texture_slots[slot].shading == GN_SHADING_AMBIENT)
             features |= texture_bit(slot) | uv1_bit(slot);
-    return features;
-}
-
-static uint64_t layer_features(const struct gn_material *m) {
-    uint64_t features = 0;
-#define GN_X(NAME, ...)                                                                            \
-    if (gn_material_has(m, GN_LAYER_##NAME)) features |= GN_FEATURE(NAME);
-    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
-#undef GN_X
     return features;
 }
 
@@ -92,7 +85,10 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     const uint64_t attributes = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
     features |= attributes << GN_FEATURE_FIRST_ATTRIBUTE;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
-    features |= layer_features(m);
+#define GN_X(NAME, ...)                                                                            \
+    if (gn_material_has(m, GN_LAYER_##NAME)) features |= GN_FEATURE(NAME);
+    GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
+#undef GN_X
     if (gn_key_is_tinted(scene, item)) features |= GN_FEATURE(TINTED);
     if (!frame->plan.tones_sum) features |= gn_frame_tone_feature(frame);
     if (frame->plan.output == GN_OUTPUT_LINEAR8 && frame->plan.encode_srgb)
@@ -205,9 +201,7 @@ void gn_key_take_part(bool rest, struct gn_program_key *key) {
 struct gn_program_key gn_key_tint(const struct gn_program_key *lit) {
     const uint64_t lost = GN_FEATURE(TONE_NEUTRAL) | GN_FEATURE(TONE_ACES) | GN_FEATURE(TONE_AGX) |
                           GN_FEATURE(FLAT_CONSTANTS) | GN_FEATURE(SHADOW_SPECULAR) |
-                          GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
-                          GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
-                          GN_FEATURE(ENVIRONMENT_TURNED) | ambient_textures();
+                          ambient_features();
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = lit->kind;
@@ -219,10 +213,7 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,
                                       const struct gn_light_group *group,
                                       const struct gn_frame_opts *opts) {
-    const uint64_t once = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
-                          GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
-                          GN_FEATURE(ENVIRONMENT_TURNED) | GN_FEATURE(ENVIRONMENT_KEY) |
-                          ambient_textures();
+    const uint64_t once = GN_FEATURE(ENVIRONMENT_KEY) | ambient_features();
     struct gn_program_key key;
     memset(&key, 0, sizeof key);
     key.kind = lit->kind;

@@ -54,15 +54,13 @@ static void add_material(const struct gn_program_key *key, struct gn_gl_text *ou
     struct gn_gl_text each = {0};
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++) {
         const char *glsl = gn_texture_slots[i].glsl, *name = gn_texture_slots[i].name;
-        const bool on = key->features >> (GN_FEATURE_FIRST_TEXTURE + i) & 1;
         gn_gl_text_add(out, "const int SLOT_%s = %d;\n#define TEXEL_%s ", glsl, i, glsl);
-        if (on)
-            gn_gl_text_add(out, "texture(u_texture_%s, v_uv_%s)\n", name, name);
-        else
+        if (!(key->features >> (GN_FEATURE_FIRST_TEXTURE + i) & 1)) {
             gn_gl_text_add(out, "vec4(1.0)\n");
-        if (on)
-            gn_gl_text_add(&each, " F(u_texture_%s, v_uv_%s, SLOT_%s, %s_UV1)", name, name, glsl,
-                           glsl);
+            continue;
+        }
+        gn_gl_text_add(out, "texture(u_texture_%s, v_uv_%s)\n", name, name);
+        gn_gl_text_add(&each, " F(u_texture_%s, v_uv_%s, SLOT_%s, %s_UV1)", name, name, glsl, glsl);
     }
     gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
     if (each.size > 0) gn_gl_text_add_bytes(out, each.data, each.size);
@@ -89,6 +87,7 @@ static bool add_layers(struct gn_gl_source *source, const struct gn_program_key 
 #undef GN_X
     };
     static const char *const calls[][3] = {{"LAYERS_BEGIN", "begin", "(smooth_normal, s)"},
+                                           {"LAYERS_AMBIENT", "ambient", "(s)"},
                                            {"LAYERS_LIGHT", "light", "(s, l, seen)"},
                                            {"LAYERS_END", "end", "(s, color)"}};
     for (size_t c = 0; c < sizeof calls / sizeof *calls; c++) {

@@ -76,8 +76,9 @@ static bool read_buffer(struct gltf *g, size_t index, const json_t *buffer) {
         ok = gn_data_uri_decode(uri, plain, &part.size, &why);
     } else if (uri) {
         plain = gn_import_alloc(strlen(uri) + 1);
-        plain[gn_percent_decode(uri, plain)] = 0;
-        ok = gn_import_folder_read(g->import, (const char *)plain, &file);
+        ok = false;
+        for (int i = 0; !ok && gn_uri_name(uri, i, (char *)plain) > 0; i++)
+            ok = gn_import_folder_read(g->import, (const char *)plain, &file);
         part = (struct part){file.data, file.size};
     }
     const size_t start = gn_glb_append(g->glb, part.data, ok ? part.size : 0);

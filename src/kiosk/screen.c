@@ -41,6 +41,7 @@ bool gn_show_open_display(struct gn_show_screen *s, struct gn_err *err) {
         s->show->config.place ? s->show->config.place->backend : o->display.backend,
         &s->context.screen_opts, gn_loop_now_ns(s->show->loop), s->show->warnings, err);
     gn_wake_end(&wake);
+    if (wake.no_cache.text[0]) gn_warn(s->show->warnings, "%s", wake.no_cache.text);
     if (ok && s->show->config.place) s->show->config.place->opened = true;
     return ok;
 }

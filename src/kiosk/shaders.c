@@ -1,5 +1,4 @@
-#include "kiosk/shaders.h"
-
+/* [render] shaders: waits for files of that folder to change, and makes the programs again. */
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -13,18 +12,24 @@
 
 static const int64_t MOMENT_NS = GN_NS_PER_S / 10;
 
+struct shaders {
+    const struct gn_part_host *host;
+    struct gn_watch watch; /* inotify; fd -1: there is no folder */
+    struct gn_timer timer; /* a moment after the last change: an editor writes several files */
+    bool changed;          /* set then */
+};
+
 static void take_event(void *user, uint32_t events, int64_t now_ns) {
-    struct gn_shader_files *files = user;
+    struct shaders *s = user;
     char buffer[4096] __attribute__((aligned(__alignof__(struct inotify_event))));
     (void)events;
-    while (read(files->watch.fd, buffer, sizeof buffer) > 0)
-        files->timer.due_ns = now_ns + MOMENT_NS;
+    while (read(s->watch.fd, buffer, sizeof buffer) > 0) s->timer.due_ns = now_ns + MOMENT_NS;
 }
 
 static void take_change(void *user, int64_t now_ns) {
-    struct gn_shader_files *files = user;
+    struct shaders *s = user;
     (void)now_ns;
-    files->changed = true;
+    s->changed = true;
 }
 
 static bool watch_folder(int fd, const char *path) {
@@ -45,47 +50,33 @@ static bool watch_folders(int fd, const char *folder) {
     return true;
 }
 
-bool gn_shader_files_open(struct gn_shader_files *files, const char *folder, struct gn_loop *loop,
-                          struct gn_err *err) {
-    *files = (struct gn_shader_files){.watch.fd = -1};
-    if (!folder) return true;
-    const int fd = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-    files->watch =
-        (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = take_event, .user = files};
-    files->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = take_change, .user = files};
-    if (fd >= 0 && watch_folders(fd, folder) && gn_loop_add(loop, &files->watch)) {
-        gn_loop_add_timer(loop, &files->timer);
-        return true;
-    }
-    gn_fail(err, "%s: changes are not noticed: %s", folder, strerror(errno));
-    gn_shader_files_close(files);
-    return false;
+static void close_shaders(void *part) {
+    struct shaders *s = part;
+    gn_loop_remove(&s->watch);
+    gn_loop_remove_timer(&s->timer);
+    if (s->watch.fd >= 0) close(s->watch.fd);
+    *s = (struct shaders){.host = s->host, .watch.fd = -1};
 }
-
-void gn_shader_files_close(struct gn_shader_files *files) {
-    gn_loop_remove(&files->watch);
-    gn_loop_remove_timer(&files->timer);
-    if (files->watch.fd >= 0) close(files->watch.fd);
-    *files = (struct gn_shader_files){.watch.fd = -1};
-}
-
-/* ---- the part -------------------------------------------------------------------------------- */
-
-struct shaders {
-    const struct gn_part_host *host;
-    struct gn_shader_files files;
-};
 
 static void open_shaders(void *part) {
     struct shaders *s = part;
     const struct gn_part_host *h = s->host;
+    const char *folder = (*h->settings)->render.shaders;
     struct gn_err err = {0};
+    *s = (struct shaders){.host = h, .watch.fd = -1};
     gn_problem_cure(h->problems, GN_PROBLEM_SHADERS);
-    if (!gn_shader_files_open(&s->files, (*h->settings)->render.shaders, h->loop, &err))
-        gn_problem_report(h->problems, GN_PROBLEM_SHADERS, err.text);
+    if (!folder) return;
+    const int fd = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    s->watch = (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = take_event, .user = s};
+    s->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = take_change, .user = s};
+    if (fd >= 0 && watch_folders(fd, folder) && gn_loop_add(h->loop, &s->watch)) {
+        gn_loop_add_timer(h->loop, &s->timer);
+        return;
+    }
+    gn_fail(&err, "%s: changes are not noticed: %s", folder, strerror(errno));
+    gn_problem_report(h->problems, GN_PROBLEM_SHADERS, err.text);
+    close_shaders(s);
 }
-
-static void close_shaders(void *part) { gn_shader_files_close(&((struct shaders *)part)->files); }
 
 static void reopen_shaders(void *part) {
     close_shaders(part);
@@ -97,8 +88,8 @@ static void renew_shaders(void *part) {
     struct shaders *s = part;
     const struct gn_part_host *h = s->host;
     struct gn_err err = {0};
-    if (!s->files.changed || !*h->gl) return;
-    s->files.changed = false;
+    if (!s->changed || !*h->gl) return;
+    s->changed = false;
     *h->changed = true;
     if (gn_gl_renew_programs(*h->gl, &err))
         gn_problem_cure(h->problems, GN_PROBLEM_SHADERS); /* the same problem again is news */

@@ -44,9 +44,40 @@ static void make_camera(struct gn_gltf *g) {
     scene->cameras[scene->camera_count++] = camera;
 }
 
+/* Whether a vertex of the item has another alpha than 1. */
+static bool has_clear_vertices(const struct gn_scene *scene, const struct gn_item *item) {
+    const struct gn_geometry *geometry = &scene->geometries[item->geometry];
+    if (!gn_geometry_has(geometry, GN_ATTRIBUTE_COLOR)) return false;
+    const uint8_t *rgba = scene->buffers.colors + 4 * (size_t)geometry->first_vertex;
+    for (uint32_t i = 0; i < geometry->vertex_count; i++)
+        if (rgba[4 * (size_t)i + 3] < 255) return true;
+    return false;
+}
+
+/* Whether its alpha is 1 wherever it is used, by factor, texture and vertices. */
+static bool is_opaque(const struct gn_scene *scene, uint32_t material) {
+    const struct gn_material *m = &scene->materials[material];
+    const int32_t texture = m->textures[GN_TEXTURE_BASE].texture;
+    if (m->base_color[3] < 1.0f || m->moves & GN_MOVES_BASE ||
+        (texture >= 0 && scene->pictures.images[scene->pictures.textures[texture].image].has_alpha))
+        return false;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (scene->items[i].material == material && has_clear_vertices(scene, &scene->items[i]))
+            return false;
+    return true;
+}
+
+/* Exporters write BLEND for what is opaque: that is drawn, and casts, as such. */
+static void make_opaque(struct gn_scene *scene) {
+    for (uint32_t i = 0; i < scene->material_count; i++)
+        if (scene->materials[i].alpha == GN_ALPHA_BLEND && is_opaque(scene, i))
+            scene->materials[i].alpha = GN_ALPHA_OPAQUE;
+}
+
 bool gn_scene_complete(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct gn_pose pose;
+    make_opaque(scene);
     gn_pose_init(&pose, scene, GN_POSE_NONE);
     scene->box = pose.box_ws;
     if (scene->deformation.width > 0) { /* that box may be larger than what is there */
@@ -56,8 +87,14 @@ bool gn_scene_complete(struct gn_gltf *g) {
             gn_box_join(&scene->box, &box);
         }
     }
-    if (scene->box.min[0] > scene->box.max[0]) /* nothing is visible in the initial pose */
+    if (scene->box.min[0] > scene->box.max[0]) { /* nothing is visible in the initial pose */
         scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
+        if (scene->animation.clip_count == 0)
+            gn_gltf_warn(
+                g, NULL,
+                "nothing can be seen: all that is shown has a scale of 0, no area, or lies "
+                "too far off");
+    }
     gn_scene_find_planes(g, &pose);
     gn_gltf_variant_planes(g);
     const bool measured = gn_scene_measure(g, &pose);

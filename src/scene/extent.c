@@ -234,6 +234,7 @@ static void choose_times(const struct gn_pose *pose, int64_t period_ns, int cell
             if (channel->path == GN_ANIM_RECORD && !gn_channel_hides(pose->scene, channel))
                 continue; /* nothing moves by it */
             for (uint32_t k = 0; k < channel->key_count; k++) {
+                if (channel->times_s[k] < 0) continue;
                 const int cell = (int)((double)channel->times_s[k] / cell_s);
                 if (cell >= 0 && cell < cells && times[cell] < 0)
                     times[cell] = (int64_t)((double)channel->times_s[k] * 1e9);

@@ -9,6 +9,10 @@ const struct gn_texture_slot_row gn_texture_slots[GN_TEXTURE_SLOT_COUNT] = {
 #undef GN_X
 };
 
+float gn_material_least_alpha(const struct gn_material *m) {
+    return m->alpha_cutoff > 1.0f ? m->alpha_cutoff : m->alpha_cutoff - 0.5f / 255.0f;
+}
+
 static const struct {
     int amount;
     bool reflects;

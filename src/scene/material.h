@@ -84,8 +84,7 @@ enum gn_shading {
     GN_SHADING_EMISSION, /* lit materials that emit; not where only light is added */
     GN_SHADING_AMBIENT,  /* lit materials; not where only light is added */
     GN_SHADING_LAYERS,   /* materials with that layer */
-    GN_SHADING_BEFORE_LAYERS = GN_SHADING_LAYERS - 1,
-#define GN_X(NAME, ...) GN_SHADING_##NAME,
+#define GN_X(NAME, ...) GN_SHADING_##NAME = GN_SHADING_LAYERS + GN_LAYER_##NAME,
     GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
 #undef GN_X
 };
@@ -104,6 +103,10 @@ bool gn_material_is_specular(const struct gn_material *material); /* has a highl
  * where its transmission texture is 0. */
 bool gn_material_has_opaque_texels(const struct gn_material *material);
 #define GN_OPAQUE_ALPHA 0.99f
+/* Alpha below which a masked material has a hole: its cutoff, less half a step of 8 bits, so that
+ * an alpha equal to the cutoff is opaque (glTF 2.0, 3.9.4) however the product of texture, factor
+ * and vertex is rounded. A cutoff over 1 leaves nothing. */
+float gn_material_least_alpha(const struct gn_material *material);
 bool gn_material_is_metal(const struct gn_material *material); /* in places */
 /* Has the layer, in places; unlit materials have none. */
 bool gn_material_has(const struct gn_material *material, enum gn_layer layer);

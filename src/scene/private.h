@@ -62,6 +62,7 @@ struct gn_accessor {
     X(DISPERSION, "dispersion", "KHR_materials_dispersion")                                        \
     X(DIFFUSE_TRANSMISSION, "diffuse transmission", "KHR_materials_diffuse_transmission")          \
     X(SPECULAR_TEXTURES, "textures of KHR_materials_specular", NULL)                               \
+    X(MORPHED_COLORS, "morphs of colours and texture coordinates", NULL)                           \
     X(GLOSSINESS_TEXTURES, "a specular-glossiness texture with two factors", NULL)
 
 enum gn_missing {
@@ -218,6 +219,7 @@ void gn_gltf_progress(const struct gn_gltf *g, unsigned permille);
 
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf/file.c */
 bool gn_gltf_check_support(struct gn_gltf *g);
+bool gn_gltf_supports(const char *extension); /* a reader knows it */
 bool gn_gltf_uses(const struct gn_gltf *g, const char *extension);
 bool gn_gltf_requires(const struct gn_gltf *g, const char *extension);
 bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf/buffers.c */
@@ -244,7 +246,8 @@ bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
 /* load.c: of the file; NULL: none that can be reached. To be freed. */
 char *gn_scene_folder(const char *path);
 
-/* missing.c: notes the extensions of a material that is shown; then the list of all. */
+/* missing.c: notes the extensions of a material that is shown; then the list of all that the file
+ * has and the scene has not: also each name of extensionsUsed that no reader knows. */
 void gn_missing_of_material(struct gn_gltf *g, const struct gn_at *material);
 bool gn_missing_list(struct gn_gltf *g);
 

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #define FLOATS(record, field) (offsetof(struct gn_##record##_record, field) / sizeof(float))
-
-#define UV_MOST 1e6f /* of offset, scale and rotation of a texture that clips move */
+#define COUNT(rows)           (sizeof(rows) / sizeof *(rows))
+#define UV_MOST               1e6f /* of offset, scale and rotation of a texture that clips move */
 
 static const struct gn_property properties[] = {
 #define GN_X(THING, path, record, field, components, least, most)                                  \
@@ -14,30 +14,18 @@ static const struct gn_property properties[] = {
 #undef GN_X
 };
 
-const struct gn_property gn_material_properties[GN_MATERIAL_PROPERTY_COUNT] = {
-#define GN_X(path, field, components, MOVES, fallback, least, most)                                \
-    {GN_THING_MATERIAL,                                                                            \
-     path,                                                                                         \
-     FLOATS(material, field),                                                                      \
-     components,                                                                                   \
-     GN_MOVES_##MOVES,                                                                             \
-     fallback,                                                                                     \
-     least,                                                                                        \
-     most},
+const struct gn_property gn_material_properties[] = {
+#define GN_X(path, field, components, MOVES, ...)                                                  \
+    {GN_THING_MATERIAL, path, FLOATS(material, field), components, GN_MOVES_##MOVES, __VA_ARGS__},
     GN_MATERIAL_PROPERTIES(GN_X)
 #undef GN_X
-#define GN_X(LAYER, NAME, first, components, path, fallback, least, most)                          \
-    {GN_THING_MATERIAL,                                                                            \
-     path,                                                                                         \
-     FLOATS(material, factors[GN_FACTOR_##NAME]),                                                  \
-     components,                                                                                   \
-     GN_MOVES_##LAYER,                                                                             \
-     fallback,                                                                                     \
-     least,                                                                                        \
-     most},
+#define GN_X(LAYER, NAME, first, components, path, ...)                                            \
+    {GN_THING_MATERIAL, path,       FLOATS(material, factors) + GN_FACTOR_##NAME, components,      \
+     GN_MOVES_##LAYER,  __VA_ARGS__},
         GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
 #undef GN_X
 };
+const size_t gn_material_property_count = COUNT(gn_material_properties);
 
 static float clamp(float x, float least, float most) { return fminf(fmaxf(x, least), most); }
 
@@ -52,42 +40,35 @@ static const char *behind(const char *pointer, const char *path) {
     return pointer;
 }
 
-static bool find_transform(const char *pointer, struct gn_property *out) {
-    static const struct gn_property parts[] = {
-        {.path = "offset", .first = FLOATS(uv, offset), .components = 2},
-        {.path = "scale", .first = FLOATS(uv, scale), .components = 2},
-        {.path = "rotation", .first = FLOATS(uv, rotation_rad), .components = 1},
-    };
-    for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
-        const struct gn_texture_slot_row *row = &gn_texture_slots[slot];
-        const char *rest = behind(behind(pointer, row->path), "extensions.KHR_texture_transform");
-        for (size_t i = 0; rest && i < sizeof parts / sizeof *parts; i++) {
-            const char *end = behind(rest, parts[i].path);
-            if (!end || *end) continue;
-            *out = parts[i];
-            out->thing = GN_THING_MATERIAL;
-            out->first +=
-                FLOATS(material, uv) + slot * (sizeof(struct gn_uv_record) / sizeof(float));
-            out->moves = GN_MOVES_UV;
-            out->least = -UV_MOST;
-            out->most = UV_MOST;
-            return true;
-        }
-    }
-    return false;
-}
-
-bool gn_property_find(enum gn_thing thing, const char *pointer, struct gn_property *out) {
-    const bool material = thing == GN_THING_MATERIAL;
-    const struct gn_property *rows = material ? gn_material_properties : properties;
-    const size_t count = material ? GN_MATERIAL_PROPERTY_COUNT : sizeof properties / sizeof *rows;
+static bool find_property(const struct gn_property *rows, size_t count, enum gn_thing thing,
+                          const char *pointer, struct gn_property *out) {
     for (size_t i = 0; i < count; i++) {
         const char *end = rows[i].thing == thing ? behind(pointer, rows[i].path) : NULL;
         if (!end || *end) continue;
         *out = rows[i];
         return true;
     }
-    return material && find_transform(pointer, out);
+    return false;
+}
+
+bool gn_property_find(enum gn_thing thing, const char *pointer, struct gn_property *out) {
+    static const struct gn_property transform[] = {
+#define GN_X(path, field, components)                                                              \
+    {GN_THING_MATERIAL, path,   FLOATS(material, uv[0].field), components, GN_MOVES_UV, 0,         \
+     -UV_MOST,          UV_MOST}
+        GN_X("offset", offset, 2), GN_X("scale", scale, 2), GN_X("rotation", rotation_rad, 1)};
+#undef GN_X
+    if (find_property(properties, COUNT(properties), thing, pointer, out) ||
+        find_property(gn_material_properties, gn_material_property_count, thing, pointer, out))
+        return true;
+    for (uint32_t slot = 0; thing == GN_THING_MATERIAL && slot < GN_TEXTURE_SLOT_COUNT; slot++) {
+        const char *rest = behind(behind(pointer, gn_texture_slots[slot].path),
+                                  "extensions.KHR_texture_transform");
+        if (!find_property(transform, COUNT(transform), thing, rest, out)) continue;
+        out->first += slot * (sizeof(struct gn_uv_record) / sizeof(float));
+        return true;
+    }
+    return false;
 }
 
 uint32_t gn_record_size(enum gn_thing thing) {
@@ -126,7 +107,7 @@ void gn_camera_make(const struct gn_camera_record *r, struct gn_camera *camera) 
 
 void gn_material_record_init(struct gn_material_record *record) {
     *record = (struct gn_material_record){.tint = {1, 1, 1}};
-    for (size_t i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++)
+    for (size_t i = 0; i < gn_material_property_count; i++)
         for (uint32_t k = 0; k < gn_material_properties[i].components; k++)
             ((float *)record)[gn_material_properties[i].first + k] =
                 gn_material_properties[i].fallback;
@@ -143,15 +124,6 @@ void gn_uv_make(const struct gn_uv_record *r, float m[6]) {
     for (int i = 0; i < 6; i++) m[i] += 0; /* no -0: transforms are compared as bytes */
 }
 
-static void make_moved_uv(const struct gn_uv_record *r, float uv_from_uv[6]) {
-    struct gn_uv_record within = {.rotation_rad = clamp(r->rotation_rad, -UV_MOST, UV_MOST)};
-    for (int k = 0; k < 2; k++) {
-        within.offset[k] = clamp(r->offset[k], -UV_MOST, UV_MOST);
-        within.scale[k] = clamp(r->scale[k], -UV_MOST, UV_MOST);
-    }
-    gn_uv_make(&within, uv_from_uv);
-}
-
 static float f0_of_ior(float ior) {
     const float r = (ior - 1) / (ior + 1);
     return fabsf(ior - 1.5f) < 1e-6f ? GN_F0 : r * r; /* 0 stands for a mirror: 1 */
@@ -159,11 +131,14 @@ static float f0_of_ior(float ior) {
 
 static struct gn_material_record clamped(const struct gn_material_record *record) {
     struct gn_material_record r = *record;
-    for (size_t i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++) {
+    for (size_t i = 0; i < gn_material_property_count; i++) {
         const struct gn_property *p = &gn_material_properties[i];
         float *x = (float *)&r + p->first;
         for (uint32_t k = 0; k < p->components; k++) x[k] = clamp(x[k], p->least, p->most);
     }
+    float *uv = (float *)r.uv;
+    const size_t floats = sizeof r.uv / (sizeof *uv);
+    for (size_t i = 0; i < floats; i++) uv[i] = clamp(uv[i], -UV_MOST, UV_MOST);
     return r;
 }
 
@@ -188,5 +163,5 @@ void gn_material_make(const struct gn_material_record *record, uint32_t moves,
     }
     if (moves & GN_MOVES_BASE) m->base_color[3] = fminf(r.base_color[3], 1);
     for (int slot = 0; moves & GN_MOVES_UV && slot < GN_TEXTURE_SLOT_COUNT; slot++)
-        make_moved_uv(&record->uv[slot], m->textures[slot].uv_from_uv);
+        gn_uv_make(&r.uv[slot], m->textures[slot].uv_from_uv);
 }

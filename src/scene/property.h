@@ -7,8 +7,6 @@
 
 #include "scene/scene.h"
 
-enum gn_thing { GN_THING_LIGHT, GN_THING_CAMERA, GN_THING_MATERIAL, GN_THING_NODE, GN_THING_COUNT };
-
 /* Records: floats alone, so that a clip writes any of them. */
 struct gn_light_record {
     float color[3], intensity, range_m, inner_rad, outer_rad;
@@ -73,16 +71,8 @@ struct gn_property {
     float fallback;             /* of a material: where the file has none */
     float least, most;          /* of each number; a pose clamps */
 };
-enum {
-#define GN_X(path, field, ...) GN_PROPERTY_##field,
-    GN_MATERIAL_PROPERTIES(GN_X)
-#undef GN_X
-#define GN_X(LAYER, NAME, ...) GN_PROPERTY_##NAME,
-        GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
-#undef GN_X
-            GN_MATERIAL_PROPERTY_COUNT,
-};
-extern const struct gn_property gn_material_properties[GN_MATERIAL_PROPERTY_COUNT];
+extern const struct gn_property gn_material_properties[];
+extern const size_t gn_material_property_count;
 
 /* The property of a kind of thing that a pointer names after the thing's number, from "/" on; also
  * the transforms of textures. False: none that can be played. */

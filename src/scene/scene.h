@@ -267,13 +267,16 @@ struct gn_scene_pictures {
     struct gn_texture *textures; /* images and how they are sampled */
     uint32_t image_count, texture_count;
 };
+/* Kinds of things that clips move (scene/property.h). */
+enum gn_thing { GN_THING_LIGHT, GN_THING_CAMERA, GN_THING_MATERIAL, GN_THING_NODE, GN_THING_COUNT };
 struct gn_scene_animation {
     struct gn_clip *clips;
     struct gn_channel *channels; /* of all clips, clip by clip */
     uint32_t clip_count, channel_count;
     float *records; /* of what clips move beside nodes, as the file has it (scene/property.h) */
     uint32_t record_floats;
-    bool has_hidden; /* nodes, or some may be hidden */
+    bool names[GN_THING_COUNT]; /* whether some of that kind have records */
+    bool has_hidden;            /* nodes, or some may be hidden */
 };
 struct gn_scene_deformation { /* skins and targets of meshes */
     struct gn_skin *skins;

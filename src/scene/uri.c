@@ -3,6 +3,7 @@
 #include "scene/private.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,12 +36,9 @@ static bool path_climbs(const char *path) {
 }
 
 int gn_uri_open(struct gn_gltf *g, const char *uri, struct gn_err *err) {
-    /* the file's path below the folder; '\', which some exporters write, becomes '/' */
-    char below[PATH_MAX] = "";
+    char below[PATH_MAX];
     const char *refusal = NULL;
-    size_t length = strlen(uri) < sizeof below ? gn_percent_decode(uri, (uint8_t *)below) : 0;
-    below[length] = 0;
-    for (char *c = strchr(below, '\\'); c; c = strchr(c, '\\')) *c = '/';
+    const size_t length = strlen(uri) < sizeof below ? gn_uri_name(uri, 0, below) : 0;
     if (strlen(uri) >= sizeof below)
         gn_fail(err, "URI of %zu characters is too long", strlen(uri));
     else if (length == 0)
@@ -53,8 +51,13 @@ int gn_uri_open(struct gn_gltf *g, const char *uri, struct gn_err *err) {
         gn_fail(err, "'%.80s' lies outside the model's folder; put the file beside it", uri);
     else if (!g->folder)
         refusal = "a model in memory cannot name other files";
-    else
-        return gn_file_open_beneath(g->folder, below, err);
+    else {
+        int fd = gn_file_open_beneath(g->folder, below, err);
+        for (int i = 1; fd < 0 && errno == ENOENT && gn_uri_name(uri, i, below) > 0; i++)
+            fd = gn_file_open_beneath(g->folder, below, NULL);
+        if (fd >= 0) *err = (struct gn_err){0};
+        return fd;
+    }
     if (refusal) gn_fail(err, "'%.80s': %s", uri, refusal);
     return -1;
 }

@@ -10,24 +10,6 @@
 
 /* ---- once ---- */
 
-static bool names_light(const struct gn_scene *scene) {
-    bool any = scene->animation.has_hidden;
-    for (uint32_t i = 0; i < scene->light_count; i++) any |= scene->lights[i].record > 0;
-    return any;
-}
-
-static bool names_camera(const struct gn_scene *scene) {
-    bool any = false;
-    for (uint32_t i = 0; i < scene->camera_count; i++) any |= scene->cameras[i].record > 0;
-    return any;
-}
-
-static bool names_material(const struct gn_scene *scene) {
-    bool any = false;
-    for (uint32_t i = 0; i < scene->material_count; i++) any |= scene->materials[i].record > 0;
-    return any;
-}
-
 void gn_values_init(struct gn_values *v, struct gn_pose *pose) {
     const struct gn_scene *scene = pose->scene;
     const uint32_t floats = scene->animation.record_floats;
@@ -45,11 +27,11 @@ void gn_values_init(struct gn_values *v, struct gn_pose *pose) {
     v->shown = gn_xalloc(floats, sizeof *v->shown);
     v->kept = gn_xalloc(floats, sizeof *v->kept);
     memcpy(v->shown, scene->animation.records, floats * sizeof *v->shown);
-    if (!v->lights && names_light(scene))
+    if (!v->lights && scene->animation.names[GN_THING_LIGHT])
         pose->lights = v->lights = gn_xalloc(scene->light_count, sizeof *v->lights);
-    if (names_camera(scene))
+    if (scene->animation.names[GN_THING_CAMERA])
         pose->cameras = v->cameras = gn_xalloc(scene->camera_count, sizeof *v->cameras);
-    if (!names_material(scene)) return;
+    if (!scene->animation.names[GN_THING_MATERIAL]) return;
     pose->materials = v->materials = gn_xalloc(scene->material_count, sizeof *v->materials);
     memcpy(v->materials, scene->materials, scene->material_count * sizeof *v->materials);
 }

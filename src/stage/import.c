@@ -70,7 +70,10 @@ struct job {
     int glb, log;                         /* memfds: its output and its messages */
 };
 
-static uint64_t at_most(uint64_t value, uint64_t most) { return value < most ? value : most; }
+/* At most that; 0 for a default, in place of which the program has its own. */
+static uint64_t given(uint64_t value, uint64_t usual, uint64_t most) {
+    return value == usual ? 0 : value < most ? value : most;
+}
 
 static void exec_program(void *shared, const void *argument) {
     (void)shared;
@@ -137,11 +140,13 @@ static char *run_import(const char *path, const struct gn_scene_limits *limits, 
                                        : "convert the file to .glb");
         return NULL;
     }
+    const struct gn_scene_limits usual = gn_scene_limits_or_default(NULL);
     struct job job = {.program = program,
                       .path = path,
-                      .file_mb = at_most(limits->file_mb, MOST_FILE_MB),
-                      .memory_mb = at_most(2 * limits->memory_mb, MOST_MEMORY_MB),
-                      .seconds = limits->seconds,
+                      .file_mb = given(limits->file_mb, usual.file_mb, MOST_FILE_MB),
+                      .memory_mb =
+                          given(limits->memory_mb, usual.memory_mb, MOST_MEMORY_MB / 2) * 2,
+                      .seconds = given(limits->seconds, usual.seconds, UINT64_MAX),
                       .glb = memfd_create("gnomon-glb", MFD_CLOEXEC),
                       .log = memfd_create("gnomon-log", MFD_CLOEXEC)};
     char *glb = NULL;

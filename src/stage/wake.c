@@ -6,6 +6,7 @@
 
 #include "core/quiet.h"
 #include "input/terminal.h"
+#include "stage/driver_cache.h"
 
 static const int crashes[GN_WAKE_CRASHES] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
@@ -23,6 +24,7 @@ static void report_crash(int signal) {
 
 void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings) {
     const struct sigaction now = {.sa_handler = report_crash};
+    gn_driver_cache_reserve(&wake->no_cache);
     wake->kept = settings->run.verbose ? -1 : gn_quiet_begin();
     error_fd = wake->kept >= 0 ? wake->kept : STDERR_FILENO;
     for (int i = 0; i < GN_WAKE_CRASHES; i++) sigaction(crashes[i], &now, &wake->old[i]);
@@ -37,6 +39,7 @@ bool gn_wake_display(struct gn_display *display, const struct gn_settings *setti
                      struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_wake wake = {0};
     gn_wake_begin(&wake, settings);
+    if (wake.no_cache.text[0]) gn_warn(warnings, "%s", wake.no_cache.text);
     bool ok = gn_display_open(display, settings->display.backend, warnings, err);
     gn_wake_end(&wake);
     return ok;

@@ -13,6 +13,7 @@ enum { GN_WAKE_CRASHES = 5 };
 struct gn_wake { /* zeroed is ready */
     int kept;    /* a duplicate of stderr; -1: stderr is unchanged */
     struct sigaction old[GN_WAKE_CRASHES];
+    struct gn_err no_cache; /* why the driver's cache was switched off; "": it was not */
 };
 /* Around code that starts a driver. */
 void gn_wake_begin(struct gn_wake *wake, const struct gn_settings *settings);

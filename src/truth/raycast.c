@@ -90,7 +90,6 @@ void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene
     *rays = (struct gn_raycast){.scene = scene, .materials = scene->materials};
     copy_materials(rays, pose);
     gn_bvh_build_until(&rays->bvh, triangles, count, cancel);
-    rays->lift_m = 1e-5 * rays->bvh.diagonal;
     rays->spiral = gn_xalloc(SPIRAL_MAX, sizeof *rays->spiral);
     for (int i = 0; i < SPIRAL_MAX; i++) spiral_at(i, rays->spiral[i]);
 }
@@ -179,7 +178,7 @@ static bool is_hole(const struct gn_raycast *rays, const struct gn_bvh_triangle 
                     const struct gn_bvh_hit *hit) {
     return (t->flags & MASKED) &&
            alpha_at(rays, t, hit) <
-               rays->materials[rays->scene->items[t->item].material].alpha_cutoff;
+               gn_material_least_alpha(&rays->materials[rays->scene->items[t->item].material]);
 }
 
 /* --- the eye --- */
@@ -297,6 +296,15 @@ static bool casts(const void *context, const struct gn_bvh_triangle *t,
     return (t->flags & CASTS) && !is_hole(rays, t, hit);
 }
 
+/* How far off a surface its shadow rays start: some units in the last place of the float
+ * coordinates of the triangles there, as in Waechter, Binder 2019, "A Fast and Robust Method for
+ * Avoiding Self-Intersection"; and of the doubles that the point was computed from, which are as
+ * large as the scene. A share of the scene's size alone would lose contacts in a large scene. */
+static double lift_of(const struct gn_raycast *rays, const struct gn_ray_surface *surface) {
+    const double *p = surface->point_ws;
+    return 0x1p-20 * fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2]))) + 0x1p-40 * rays->bvh.diagonal;
+}
+
 static bool casts_itself(const struct gn_raycast *rays, const struct gn_ray_surface *surface) {
     return surface->item == GN_RAY_NO_ITEM || rays->scene->items[surface->item].casts;
 }
@@ -328,8 +336,9 @@ static bool is_free(const struct gn_raycast *rays, const struct gn_ray_surface *
                     const double to[3], bool endless, struct blockers *blockers) {
     if (dot(surface->normal_ws, to) <= 0 && casts_itself(rays, surface)) return false;
     struct gn_ray ray = {.t_min = 0, .t_max = endless ? INFINITY : 1};
+    const double lift_m = lift_of(rays, surface);
     for (int k = 0; k < 3; k++) {
-        double lift = rays->lift_m * surface->normal_ws[k];
+        double lift = lift_m * surface->normal_ws[k];
         ray.origin[k] = surface->point_ws[k] + lift;
         ray.direction[k] = to[k] - (endless ? 0 : lift);
     }
@@ -351,9 +360,9 @@ static void find_blockers(const struct gn_raycast *rays, const struct gn_ray_lam
                           const double u[3], const double v[3], struct blockers *blockers) {
     const bool endless = lamp->type == GN_LIGHT_DIRECTIONAL;
     struct gn_beam beam = {.t_max = endless ? INFINITY : 1};
+    const double lift_m = lift_of(rays, surface);
     for (int k = 0; k < 3; k++) {
-        const double lift = rays->lift_m * surface->normal_ws[k],
-                     middle = to[k] - (endless ? 0 : lift),
+        const double lift = lift_m * surface->normal_ws[k], middle = to[k] - (endless ? 0 : lift),
                      spread = 1.000001 * lamp->radius * sqrt(u[k] * u[k] + v[k] * v[k]);
         beam.origin[k] = surface->point_ws[k] + lift;
         beam.low[k] = middle - spread;

@@ -31,7 +31,6 @@ struct gn_raycast {
     const struct gn_material *materials; /* as the pose has them */
     struct gn_material *own;             /* the same, if they are not the scene's */
     struct gn_bvh bvh;
-    double lift_m; /* shadow rays start this far off a surface: 1e-5 of the scene's diagonal */
     double (*spiral)[2]; /* directions of the first points of gn_raycast_share() */
 };
 

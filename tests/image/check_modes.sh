@@ -72,6 +72,7 @@ shadow = disk
 shadow = hard
 END
 : > "$folder/script"
+for signal in USR1 USR2 ALRM IO PWR RTMIN RTMAX; do kill -$signal "$pid"; done # none of them ends it
 kill -HUP "$pid"
 until_says out '^reloaded, mode Soft'
 echo 'shado = soft' >> "$folder/kiosk.ini"

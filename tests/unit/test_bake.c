@@ -293,6 +293,43 @@ static void test_blended_triangles_keep_their_order(void **state) {
     finish(&b);
 }
 
+/* The step of the grid of a sheet whose accessor has one vertex more, at x. */
+static double step_with_stray(float x) {
+    static float positions[CORNERS + 1][3], normal[3], uv[2];
+    static uint16_t indices[CORNERS];
+    struct gn_maker m;
+    struct baked b;
+    char mesh[200];
+    for (int i = 0; i < CORNERS; i++) {
+        indices[i] = (uint16_t)i;
+        put_corner(i / 6 % SIDE + (i % 3 == 1), i / 6 / SIDE + (i % 3 == 2), positions[i], normal,
+                   uv);
+    }
+    positions[CORNERS][0] = x;
+    gn_maker_init(&m);
+    const int p = gn_maker_accessor(&m, "VEC3", 5126, CORNERS + 1, positions, sizeof positions,
+                                    NULL),
+              n = gn_maker_accessor(&m, "SCALAR", 5123, CORNERS, indices, sizeof indices, NULL);
+    snprintf(mesh, sizeof mesh, "{'primitives':[{'attributes':{'POSITION':%d},'indices':%d}]}", p,
+             n);
+    gn_maker_add(&m, "meshes", mesh);
+    gn_maker_set(&m, "nodes", "[{'mesh':0}]");
+    gn_maker_set(&m, "scenes", "[{'nodes':[0]}]");
+    assert_true(bake_with(&m, 1, 2048, &b));
+    const double step =
+        json_number_value(json_array_get(json_object_get(item(&b, "nodes", 0), "scale"), 0));
+    finish(&b);
+    return step;
+}
+
+static void test_vertices_of_no_triangle_do_not_widen_the_grid(void **state) {
+    (void)state;
+    const double step = step_with_stray(0);
+    assert_true(step > 0);
+    assert_true(step_with_stray(1e6f) == step);
+    assert_true(step_with_stray(NAN) == step);
+}
+
 static void test_simplified_surfaces_move_less_than_is_said(void **state) {
     (void)state;
     struct gn_maker m;
@@ -413,6 +450,7 @@ int main(void) {
         cmocka_unit_test(test_skins_and_targets_stay_floats),
         cmocka_unit_test(test_strips_and_fans_face_as_before),
         cmocka_unit_test(test_blended_triangles_keep_their_order),
+        cmocka_unit_test(test_vertices_of_no_triangle_do_not_widen_the_grid),
         cmocka_unit_test(test_simplified_surfaces_move_less_than_is_said),
         cmocka_unit_test(test_only_pictures_over_the_limit_change),
         cmocka_unit_test(test_scaled_colours_are_averaged_in_linear_light),

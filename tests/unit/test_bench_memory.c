@@ -1,15 +1,18 @@
 /* Private dirty pages, and the driver's cache as a folder. */
 
 #include <math.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
-#include "cli/driver_cache.h"
 #include "cli/memory.h"
+#include "stage/driver_cache.h"
 #include "unit/check.h"
 
 static void test_what_is_written_to_is_counted(void **state) {
@@ -108,6 +111,46 @@ static void test_a_cache_switched_off_holds_nothing(void **state) {
     unsetenv("MESA_SHADER_CACHE_DISABLE");
 }
 
+/* In a child with a disk of its own of so many bytes: 0 reserved, 1 refused and switched off, 77 it
+ * cannot have one. */
+static int reserve_on_disk_of(const char *bytes) {
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        char opts[40];
+        struct gn_err err = {0};
+        struct stat info;
+        snprintf(opts, sizeof opts, "size=%s", bytes);
+        if (unshare(CLONE_NEWNS | (geteuid() ? CLONE_NEWUSER : 0)) != 0 ||
+            mount("none", "/", NULL, MS_REC | MS_PRIVATE, NULL) != 0 ||
+            mount("tmpfs", cache_dir, "tmpfs", 0, opts) != 0)
+            _exit(77);
+        const bool ok = gn_driver_cache_reserve(&err);
+        const char *off = getenv("MESA_SHADER_CACHE_DISABLE");
+        char path[80];
+        snprintf(path, sizeof path, "%s/index", cache_path[0]);
+        const bool has_index = stat(path, &info) == 0 && info.st_size == 1310728 &&
+                               info.st_blocks * 512 >= info.st_size;
+        _exit(ok && !off && has_index                                                       ? 0
+              : !ok && off && strcmp(off, "true") == 0 && strstr(err.text, "no space left") ? 1
+                                                                                            : 2);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status));
+    return WEXITSTATUS(status);
+}
+
+/* Mesa maps its index: a page of it for which the disk has no room would end the process. */
+static void test_the_index_has_its_place_on_the_disk_or_there_is_no_cache(void **state) {
+    (void)state;
+    const int roomy = reserve_on_disk_of("16m");
+    if (roomy == 77) skip();
+    assert_int_equal(roomy, 0);
+    assert_int_equal(reserve_on_disk_of("64k"), 1);
+    assert_int_equal(reserve_on_disk_of("4m"), 1); /* for the index alone */
+}
+
 int main(void) {
     const struct CMUnitTest memory[] = {
         cmocka_unit_test(test_what_is_written_to_is_counted),
@@ -118,6 +161,7 @@ int main(void) {
     const struct CMUnitTest cache[] = {
         cmocka_unit_test(test_a_cache_that_gains_is_cold_and_then_warm),
         cmocka_unit_test(test_a_cache_switched_off_holds_nothing),
+        cmocka_unit_test(test_the_index_has_its_place_on_the_disk_or_there_is_no_cache),
     };
     return cmocka_run_group_tests(memory, NULL, NULL) +
            cmocka_run_group_tests(cache, make_cache, remove_cache);

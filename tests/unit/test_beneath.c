@@ -68,6 +68,8 @@ static int enter(void **state) {
     put("intruder/secret", "secret");
     put("in/a", "inside");
     put("in/sub/b", "inside");
+    put("in/twice", "inside");
+    put("in/TWICE", "inside");
     put("in/deep.gltf", "{\"asset\":{\"version\":\"2.0\"},"
                         "\"buffers\":[{\"uri\":\"one/two/out\",\"byteLength\":4}]}");
     link_to("near", "", "sub/b");
@@ -119,6 +121,11 @@ static int try_names(void) {
         {"near", NULL},
         {"far", NULL},
         {"round", NULL},
+        {"A", NULL},
+        {"Sub/B", NULL},
+        {"SUB/../a", NULL},
+        {"Twice", "in/Twice: cannot open: No such file"}, /* there are twice and TWICE */
+        {"TWIN/secret", "leads outside the model's folder"},
         {"up", "'up' leads outside the model's folder"},
         {"out", "'out' leads outside the model's folder"},
         {"../secret", "leads outside the model's folder"},

@@ -201,12 +201,19 @@ static void test_a_deep_camera_is_noticed(void **state) {
     assert_no_advice("no camera");
 }
 
-static void test_blend_without_transparency_is_noticed(void **state) {
+static void test_a_mask_without_holes_is_noticed(void **state) {
+    (void)state;
+    set_material("{'name':'wall','alphaMode':'MASK'}");
+    inspect();
+    assert_advice("material 'wall' is masked, but nothing");
+}
+
+static void test_blend_without_transparency_is_opaque(void **state) {
     (void)state;
     set_material("{'name':'wall','alphaMode':'BLEND'}");
     inspect();
-    assert_advice("material 'wall' is blended, but nothing");
-    assert_advice("1 blended thing (the first is of 'wall') casts no shadow");
+    assert_int_equal(scene->materials[0].alpha, GN_ALPHA_OPAQUE);
+    assert_no_advice("casts no shadow");
 }
 
 static void test_glass_is_not_called_opaque(void **state) {
@@ -274,7 +281,7 @@ static void test_warnings_stand_in_the_report(void **state) {
 
 static void test_text_moves_no_cursor(void **state) {
     (void)state;
-    set_material("{'name':'a\\u001b[2J\\u202eb','alphaMode':'BLEND'}");
+    set_material("{'name':'a\\u001b[2J\\u202eb','alphaMode':'MASK'}");
     inspect();
     char *text = NULL;
     size_t size;
@@ -303,7 +310,8 @@ int main(void) {
         TEST(test_millimetres_are_noticed),
         TEST(test_a_doll_house_is_noticed),
         TEST(test_a_deep_camera_is_noticed),
-        TEST(test_blend_without_transparency_is_noticed),
+        TEST(test_a_mask_without_holes_is_noticed),
+        TEST(test_blend_without_transparency_is_opaque),
         TEST(test_glass_is_not_called_opaque),
         TEST(test_the_unseen_floor_is_nobodys_fault),
         TEST(test_json_has_its_fields),

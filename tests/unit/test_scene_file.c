@@ -310,6 +310,7 @@ static struct gn_scene *load_with_uri(const char *uri) {
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     put("in/some bin.bin", maker.bin, maker.size);
+    put("in/50%25 off.bin", maker.bin, maker.size);
     put("outside.bin", maker.bin, maker.size);
     snprintf(json, sizeof json, "[{'byteLength':%zu,'uri':'%s'}]", maker.size, uri);
     gn_maker_set(&maker, "buffers", json);
@@ -346,8 +347,10 @@ static int make_folder(void **state) {
 
 static int remove_folder(void **state) {
     (void)state;
-    static const char *const names[] = {"in/a.gltf", "in/some bin.bin", "in/link.bin", "in/pipe",
-                                        "in/sub",    "outside.bin",     "in",          "."};
+    static const char *const names[] = {
+        "in/a.gltf", "in/50%25 off.bin", "in/some bin.bin", "in/link.bin",
+        "in/pipe",   "in/sub",           "outside.bin",     "in",
+        "."};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char path[PATH_MAX + 40];
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
@@ -358,8 +361,15 @@ static int remove_folder(void **state) {
 
 static void test_uris(void **state) {
     (void)state;
-    static const char *const good[] = {"some%20bin.bin", "some bin.bin", "./some bin.bin",
-                                       "sub/../some%20bin.bin", "sub\\\\..\\\\some bin.bin"};
+    static const char *const good[] = {"some%20bin.bin",
+                                       "some bin.bin",
+                                       "./some bin.bin",
+                                       "sub/../some%20bin.bin",
+                                       "sub\\\\..\\\\some bin.bin",
+                                       "some%20bin.bin?v=3",
+                                       "some bin.bin#part",
+                                       "Some%20Bin.BIN",
+                                       "50%25 off.bin"};
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
         struct gn_scene *scene = load_with_uri(good[i]);
         if (!scene) fail_msg("%s: %s", good[i], err.text);

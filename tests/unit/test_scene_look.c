@@ -341,6 +341,21 @@ static void test_later_work_is_named_once(void **state) {
     gn_scene_destroy(scene);
 }
 
+static void test_each_extension_that_no_reader_knows_is_named(void **state) {
+    (void)state;
+    gn_maker_set(&maker, "extensionsUsed",
+                 "['KHR_interactivity','KHR_texture_transform','KHR_xmp_json_ld',"
+                 "'KHR_materials_sheen','KHR_interactivity','EXT_\\u0001one']");
+    gn_maker_set(&maker, "meshes",
+                 "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0,"
+                 "'targets':[{'POSITION':0,'TEXCOORD_0':0}]}]}]");
+    gn_maker_set(&maker, "materials", "[{}]");
+    struct gn_scene *scene = load();
+    assert_string_equal(scene->missing, "morphs of colours and texture coordinates, "
+                                        "KHR_interactivity, EXT_?one");
+    gn_scene_destroy(scene);
+}
+
 /* ---- batches ---- */
 
 static uint32_t batches_of(const char *materials) {
@@ -371,12 +386,31 @@ static void test_batches(void **state) {
     assert_int_equal(batches_of("[{'doubleSided':true},{}]"), 2);
     assert_int_equal(batches_of("[{'alphaMode':'MASK','alphaCutoff':0.2},{'alphaMode':'MASK'}]"),
                      1);
-    assert_int_equal(batches_of("[{'alphaMode':'BLEND'},{}]"), 2);
+    assert_int_equal(batches_of("[{'alphaMode':'BLEND'},{}]"), 1); /* nothing of it is clear */
+    assert_int_equal(batches_of("[{'alphaMode':'BLEND','pbrMetallicRoughness':{"
+                                "'baseColorFactor':[1,1,1,0.5]}},{}]"),
+                     2);
     assert_int_equal(batches_of("[{'extensions':{'KHR_materials_unlit':{}}},{}]"), 2);
+}
+
+/* As files have it: a cutoff in as many digits as an exporter writes. */
+static void test_an_alpha_equal_to_the_cutoff_is_opaque(void **state) {
+    (void)state;
+    for (int alpha = 1; alpha < 256; alpha++)
+        for (int digits = 3; digits < 9; digits++) {
+            char text[16];
+            snprintf(text, sizeof text, "%.*f", digits, alpha / 255.0);
+            const struct gn_material m = {.alpha_cutoff = strtof(text, NULL)};
+            const float least = gn_material_least_alpha(&m);
+            if (least > alpha / 255.0 || least <= (alpha - 1) / 255.0) fail_msg("%s", text);
+        }
+    const struct gn_material nothing = {.alpha_cutoff = 1.001f};
+    assert_true(gn_material_least_alpha(&nothing) > 1);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_an_alpha_equal_to_the_cutoff_is_opaque),
         cmocka_unit_test_setup(test_factors, setup_with_material),
         cmocka_unit_test_setup(test_texture_transform, setup_with_material),
         cmocka_unit_test_setup(test_samplers, setup_with_material),
@@ -392,6 +426,8 @@ int main(void) {
         cmocka_unit_test_setup(test_a_damaged_view_is_decoded_once, setup_with_material),
         cmocka_unit_test_setup(test_missing_picture_file, setup_with_material),
         cmocka_unit_test_setup(test_later_work_is_named_once, setup_with_material),
+        cmocka_unit_test_setup(test_each_extension_that_no_reader_knows_is_named,
+                               setup_with_material),
         cmocka_unit_test_setup(test_batches, setup_with_material),
     };
     return RUN(tests);

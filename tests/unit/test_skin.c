@@ -278,13 +278,31 @@ static void test_too_many_joints(void **state) {
     refused("skins[0].joints: 65536 are more than 1024 joints");
 }
 
+static void test_weights_too_many_or_too_few_cost_a_warning(void **state) {
+    (void)state;
+    static const struct {
+        const char *json, *said;
+        float weights[2];
+    } cases[] = {
+        {"[1,2,3]", "3 weights, but there are 2 morph targets; the others are ignored", {1, 2}},
+        {"[1]", "1 weights, but there are 2 morph targets; 0 for the others", {1, 0}},
+    };
+    for (int i = 0; i < 2; i++) {
+        if (i > 0) start(NULL);
+        warnings.count = 0;
+        set_in("nodes", 0, "weights", cases[i].json);
+        struct gn_scene *scene = gn_maker_load(&maker, &warnings, &err);
+        assert_non_null(scene);
+        assert_non_null(strstr(warnings.text[0], cases[i].said));
+        assert_memory_equal(scene->deformation.weights, cases[i].weights, 8);
+        gn_scene_destroy(scene);
+    }
+}
+
 static void test_counts_that_do_not_match(void **state) {
     (void)state;
     static const float binds[16] = {1};
     char json[100];
-    set_in("nodes", 0, "weights", "[1,2,3]");
-    refused("nodes[0].weights: 3 weights, but there are 2 morph targets");
-    start(NULL);
     const int one = gn_maker_accessor(&maker, "MAT4", 5126, 1, binds, sizeof binds, NULL);
     snprintf(json, sizeof json, "[{'joints':[1,2],'inverseBindMatrices':%d}]", one);
     gn_maker_set(&maker, "skins", json);
@@ -414,6 +432,7 @@ int main(void) {
         TEST(test_flat_normals_follow_a_target),
         TEST(test_a_joint_that_the_skin_lacks),
         TEST(test_too_many_joints),
+        TEST(test_weights_too_many_or_too_few_cost_a_warning),
         TEST(test_counts_that_do_not_match),
         TEST(test_a_mesh_without_joints_is_shown_without_its_skin),
         TEST(test_joints_outside_of_the_scene_do_not_move),

@@ -47,8 +47,8 @@ static const float *read_values(struct gn_gltf *g, const struct gn_accessor *a, 
     return values;
 }
 
-/* Times as floats, ascending; read once for all channels that share them. NULL: invalid, or
- * failed. */
+/* Times as floats, ascending, from before 0 where an exporter has them so; read once for all
+ * channels that share them. NULL: invalid, or failed. */
 static const float *read_times(struct gn_gltf *g, const struct sampler *sampler) {
     const struct gn_accessor *a = sampler->input;
     if (a->components != 1) return NULL;
@@ -56,7 +56,7 @@ static const float *read_times(struct gn_gltf *g, const struct sampler *sampler)
     const float *times = read_values(g, a, false);
     if (!times) return NULL;
     for (size_t i = 0; i < a->count; i++)
-        if (!(times[i] >= (i > 0 ? times[i - 1] : 0) && times[i] <= 1e9f)) return NULL;
+        if (!(times[i] >= (i > 0 ? times[i - 1] : -1e9f) && times[i] <= 1e9f)) return NULL;
     g->file.key_times[sampler->input_index] = times;
     return times;
 }
@@ -96,8 +96,7 @@ static void read_property(struct gn_gltf *g, const struct gn_at *target, const c
  * a warning. */
 static void read_pointer(struct gn_gltf *g, const struct gn_at *target, struct target *out) {
     static const char nodes[] = "/nodes/";
-    struct gn_at extension = gn_at_object(g, target, "extensions.KHR_animation_pointer");
-    const char *pointer = gn_at_text(g, &extension, "pointer");
+    const char *pointer = gn_at_text(g, target, "extensions.KHR_animation_pointer.pointer");
     if (g->failed) return;
     const bool of_node = pointer && strncmp(pointer, nodes, sizeof nodes - 1) == 0;
     const char *digits = of_node ? pointer + sizeof nodes - 1 : "";
@@ -212,7 +211,7 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
     if (!channel->values) {
         gn_gltf_warn(g, &sampler_at, "%s; channel not played",
                      !fits               ? "input and output do not fit each other"
-                     : !channel->times_s ? "times must ascend from 0"
+                     : !channel->times_s ? "times must ascend"
                                          : "values that are not finite");
         return false;
     }

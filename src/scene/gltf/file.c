@@ -157,16 +157,12 @@ static const struct cure {
     {"EXT_texture_avif", "export it with PNG or JPEG pictures"},
 };
 
-static bool has_properties(const char *extension) {
-    char start[128];
-    const int length = snprintf(start, sizeof start, "extensions.%s.", extension);
-    for (int i = 0; i < GN_MATERIAL_PROPERTY_COUNT && length < (int)sizeof start; i++)
-        if (strncmp(gn_material_properties[i].path, start, (size_t)length) == 0) return true;
-    return false;
-}
-
-static bool is_supported(const char *name) {
-    if (has_properties(name)) return true;
+bool gn_gltf_supports(const char *name) {
+    char extension[80];
+    for (size_t i = 0; i < gn_material_property_count; i++)
+        if (sscanf(gn_material_properties[i].path, "extensions.%79[^.]", extension) == 1 &&
+            strcmp(extension, name) == 0)
+            return true;
     for (size_t i = 0; i < sizeof SUPPORTED / sizeof SUPPORTED[0]; i++)
         if (strcmp(SUPPORTED[i], name) == 0) return true;
     return (strcmp(name, "EXT_meshopt_compression") == 0 ||
@@ -213,7 +209,7 @@ bool gn_gltf_check_support(struct gn_gltf *g) {
         if (!name) return gn_gltf_fail(g, &at, "must be a string");
         for (size_t k = 0; k < sizeof CURES / sizeof CURES[0]; k++)
             if (strcmp(CURES[k].extension, name) == 0) cure = CURES[k].what_to_do;
-        if (!is_supported(name))
+        if (!gn_gltf_supports(name))
             return gn_gltf_fail(g, &at, "%.80s is not supported; %s", name, cure);
     }
     return !g->failed;

@@ -277,12 +277,11 @@ static bool allocate_textures(struct gn_gltf *g) {
 /* The scene's image of a texture: that of an extension, else its own. */
 static int32_t texture_image(struct gn_gltf *g, const struct gn_at *at, enum gn_scale_kind kind) {
     const struct gn_at webp = gn_at_object(g, at, "extensions.EXT_texture_webp");
-    const struct gn_at basisu = gn_at_object(g, at, "extensions.KHR_texture_basisu");
     int32_t source = gn_at_ref(g, at, "source", g->file.image_count, "images"), image = -1;
     if (webp.json && (gn_webp_is_read() || source < 0))
         source = gn_at_ref(g, &webp, "source", g->file.image_count, "images");
     const int32_t ktx2 =
-        basisu.json ? gn_at_ref(g, &basisu, "source", g->file.image_count, "images") : -1;
+        gn_at_ref(g, at, "extensions.KHR_texture_basisu.source", g->file.image_count, "images");
     if (ktx2 >= 0 && !g->failed) image = image_at(g, ktx2, source, kind);
     if (image < 0 && source >= 0 && !g->failed) image = image_at(g, source, -1, kind);
     if (source < 0 && ktx2 < 0 && !g->failed)

@@ -57,6 +57,10 @@ static json_t *load_json(const char *text, size_t size, json_error_t *error) {
 
 bool gn_gltf_parse(struct gn_gltf *g, const char *text, size_t size, size_t offset) {
     if (!check_json_size(g, text, size, offset)) return false;
+    size_t zeros = 0; /* padding, and ends of C strings, that some exporters write with the text */
+    while (zeros < size && !text[size - zeros - 1]) zeros++;
+    if (zeros > 0) gn_gltf_warn(g, NULL, "%zu zero bytes after the JSON ignored", zeros);
+    size -= zeros;
     json_error_t error;
     g->file.json = load_json(text, size, &error);
     if (!g->file.json) {
@@ -201,17 +205,21 @@ float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *path, f
     return read_float(g, &at, &value) ? value : fallback;
 }
 
+bool gn_at_first_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, float *out) {
+    for (size_t i = 0; i < n && i < gn_at_size(array); i++) {
+        struct gn_at at = gn_at_element(array, i);
+        if (!read_float(g, &at, &out[i])) return false;
+    }
+    return true;
+}
+
 bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t n,
                   float *out) {
     struct gn_at array = gn_at_array(g, up, path);
     if (!array.json) return false;
     if (gn_at_size(&array) != n)
         return gn_gltf_fail(g, &array, "must have %zu numbers, has %zu", n, gn_at_size(&array));
-    for (size_t i = 0; i < n; i++) {
-        struct gn_at at = gn_at_element(&array, i);
-        if (!read_float(g, &at, &out[i])) return false;
-    }
-    return true;
+    return gn_at_first_floats(g, &array, n, out);
 }
 
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what) {

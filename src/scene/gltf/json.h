@@ -38,6 +38,8 @@ float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *path, f
 /* Exactly n numbers into out, which stays as it is if there are none; true if there were. */
 bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t n,
                   float *out);
+/* The first n numbers of an array, or as many as it has; false: one is none. */
+bool gn_at_first_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, float *out);
 /* An index below count, or -1 if absent or wrong; what: plural, for the message. */
 int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t count,
                   const char *what);

@@ -75,16 +75,15 @@ static bool read_light(struct gn_gltf *g, const struct gn_at *at, struct gn_ligh
 
 bool gn_gltf_lights(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
-    struct gn_at extension = gn_at_object(g, &root, "extensions.KHR_lights_punctual");
-    struct gn_at definitions = gn_at_array(g, &extension, "lights");
+    struct gn_at definitions = gn_at_array(g, &root, "extensions.KHR_lights_punctual.lights");
     struct gn_scene *scene = g->scene;
     scene->lights =
         gn_gltf_alloc(g, g->memory.scene, (uint64_t)scene->node_count + 1, sizeof *scene->lights);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
-        struct gn_at use = gn_at_object(g, &node, "extensions.KHR_lights_punctual");
-        int32_t index = gn_at_ref(g, &use, "light", gn_at_size(&definitions), "lights");
+        int32_t index = gn_at_ref(g, &node, "extensions.KHR_lights_punctual.light",
+                                  gn_at_size(&definitions), "lights");
         if (index < 0) continue;
         struct gn_at definition = gn_at_item(g, &definitions, (size_t)index);
         struct gn_light light = {.node = i, .name = scene->nodes[i].name};

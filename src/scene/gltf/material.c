@@ -136,8 +136,8 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
     m->base_color[3] = clamp(m->base_color[3], 0, 1);
 }
 
-/* Of a volume the colour alone, once over its thickness
- * at most: where that comes from a texture, and how long the way of the light is, is unknown. */
+/* The colour of a volume alone, over its thickness at most: where that comes from a texture, and
+ * how long the way of the light is, is unknown. Returns the thickness. */
 static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3]) {
     struct gn_at volume = gn_at_object(g, at, "extensions.KHR_materials_volume");
     float color[3] = {1, 1, 1};
@@ -161,11 +161,9 @@ static void limit_textures(struct gn_gltf *g, const struct gn_at *at, struct gn_
     }
 }
 
-/* thickness: of its volume */
-static void read_record(struct gn_gltf *g, const struct gn_at *at, struct gn_material_record *r,
-                        float *thickness) {
+static void read_record(struct gn_gltf *g, const struct gn_at *at, struct gn_material_record *r) {
     gn_material_record_init(r);
-    for (int i = 0; i < GN_MATERIAL_PROPERTY_COUNT; i++) {
+    for (size_t i = 0; i < gn_material_property_count; i++) {
         const struct gn_property *p = &gn_material_properties[i];
         float *to = (float *)r + p->first;
         if (p->components == 1)
@@ -173,16 +171,15 @@ static void read_record(struct gn_gltf *g, const struct gn_at *at, struct gn_mat
         else
             gn_at_floats(g, at, p->path, p->components, to);
     }
-    *thickness = read_tint(g, at, r->tint);
 }
 
 /* The numbers of a material. What a clip may change of it decides how it is read. */
 static void read_properties(struct gn_gltf *g, const struct gn_at *at, size_t index, bool used,
                             struct gn_material *m) {
-    float thickness;
     struct gn_material_record own, *r = gn_gltf_record(g, GN_THING_MATERIAL, index, &m->record);
     if (!r) r = &own;
-    read_record(g, at, r, &thickness);
+    read_record(g, at, r);
+    const float thickness = read_tint(g, at, r->tint);
     m->moves = g->to_scene.moves[index];
     if (m->unlit) {
         m->moves &= ~(uint32_t)GN_MOVES_LAYERS;

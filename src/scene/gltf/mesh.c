@@ -145,6 +145,14 @@ static bool read_targets(const struct reader *reader, const struct gn_at *primit
     if (mesh->target_count > 0 && mesh->target_count != count)
         return gn_gltf_fail(g, &targets, "%zu, but another primitive has %" PRIu32, count,
                             mesh->target_count);
+    for (size_t i = 0; i < count; i++) {
+        const char *name;
+        json_t *accessor;
+        json_object_foreach(json_array_get(targets.json, i), name, accessor) {
+            if (strncmp(name, "TEXCOORD_", 9) == 0 || strncmp(name, "COLOR_", 6) == 0)
+                g->is_missing[GN_MISSING_MORPHED_COLORS] = true;
+        }
+    }
     mesh->target_count = (uint32_t)count;
     shape->targets = (int32_t)reader->shape_count + 1;
     return true;

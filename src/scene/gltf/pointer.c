@@ -20,11 +20,11 @@ static const struct {
 
 /* Of the file. */
 static size_t count_things(struct gn_gltf *g, enum gn_thing thing) {
-    struct gn_at root = gn_at_root(g), holder = root;
+    struct gn_at root = gn_at_root(g);
     if (thing == GN_THING_NODE) return g->file.node_count;
     if (thing == GN_THING_MATERIAL) return g->file.material_count;
-    if (thing == GN_THING_LIGHT) holder = gn_at_object(g, &root, "extensions.KHR_lights_punctual");
-    struct gn_at list = gn_at_array(g, &holder, thing == GN_THING_LIGHT ? "lights" : "cameras");
+    struct gn_at list = gn_at_array(
+        g, &root, thing == GN_THING_LIGHT ? "extensions.KHR_lights_punctual.lights" : "cameras");
     return gn_at_size(&list);
 }
 
@@ -59,6 +59,7 @@ static void claim_record(struct gn_gltf *g, const struct gn_property *property, 
     if (*record) return;
     *record = g->scene->animation.record_floats + 1;
     g->scene->animation.record_floats += gn_record_size(property->thing);
+    g->scene->animation.names[property->thing] = true;
 }
 
 static void scan_channel(struct gn_gltf *g, const struct gn_at *channel) {
@@ -67,8 +68,7 @@ static void scan_channel(struct gn_gltf *g, const struct gn_at *channel) {
     struct gn_at target = gn_at_object(g, channel, "target");
     const char *path = gn_at_text(g, &target, "path");
     if (!path || strcmp(path, "pointer") != 0) return;
-    struct gn_at extension = gn_at_object(g, &target, "extensions.KHR_animation_pointer");
-    const char *pointer = gn_at_text(g, &extension, "pointer");
+    const char *pointer = gn_at_text(g, &target, "extensions.KHR_animation_pointer.pointer");
     if (!g->failed && gn_gltf_find_property(g, pointer, &property, &index))
         claim_record(g, &property, index);
 }
@@ -78,8 +78,7 @@ static void read_visibility(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
     for (size_t i = 0; i < g->file.node_count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &nodes, i);
-        struct gn_at own = gn_at_object(g, &at, "extensions.KHR_node_visibility");
-        const bool visible = gn_at_flag(g, &own, "visible", true);
+        const bool visible = gn_at_flag(g, &at, "extensions.KHR_node_visibility.visible", true);
         const uint32_t record = g->to_scene.record[GN_THING_NODE][i];
         const int32_t n = g->to_scene.node[i];
         if (n < 0 || g->failed) continue;

@@ -107,11 +107,11 @@ static bool read_weights(struct gn_gltf *g, const struct gn_placed *placed, uint
     struct gn_at list = gn_at_array(g, &node, "weights");
     if (!list.json) list = gn_at_array(g, &mesh, "weights");
     if (g->failed || gn_at_size(&list) == 0) return !g->failed;
-    if (gn_at_size(&list) != count)
-        return gn_gltf_fail(g, &list, "%zu weights, but there are %" PRIu32 " morph targets",
-                            gn_at_size(&list), count);
-    const struct gn_at *holder = list.up;
-    return gn_at_floats(g, holder, "weights", count, out);
+    const size_t given = gn_at_size(&list);
+    if (given != count)
+        gn_gltf_warn(g, &list, "%zu weights, but there are %" PRIu32 " morph targets; %s", given,
+                     count, given > count ? "the others are ignored" : "0 for the others");
+    return gn_at_first_floats(g, &list, count, out);
 }
 
 static bool add_morph(struct gn_gltf *g, uint32_t node) {

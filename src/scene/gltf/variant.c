@@ -6,8 +6,7 @@
 #define VARIANTS "extensions.KHR_materials_variants"
 
 bool gn_gltf_variants(struct gn_gltf *g) {
-    struct gn_at root = gn_at_root(g), extension = gn_at_object(g, &root, VARIANTS);
-    struct gn_at list = gn_at_array(g, &extension, "variants");
+    struct gn_at root = gn_at_root(g), list = gn_at_array(g, &root, VARIANTS ".variants");
     struct gn_scene_variants *variants = &g->scene->variants;
     size_t count = gn_at_size(&list);
     if (count > GN_VARIANTS_MAX) {
@@ -23,22 +22,15 @@ bool gn_gltf_variants(struct gn_gltf *g) {
     return !g->failed;
 }
 
-static struct gn_at mappings_of(struct gn_gltf *g, const struct gn_at *primitive,
-                                struct gn_at *extension) {
-    *extension = gn_at_object(g, primitive, VARIANTS);
-    return gn_at_array(g, extension, "mappings");
-}
-
 size_t gn_gltf_variant_most(struct gn_gltf *g, const struct gn_at *primitive) {
-    struct gn_at extension, mappings = mappings_of(g, primitive, &extension);
+    struct gn_at mappings = gn_at_array(g, primitive, VARIANTS ".mappings");
     const size_t count = gn_at_size(&mappings);
     return 1 + (count < g->scene->variants.count ? count : g->scene->variants.count);
 }
 
 /* The bits of the variants of a mapping; a variant that an earlier mapping has stays with that. */
 static uint64_t read_bits(struct gn_gltf *g, const struct gn_at *mapping, uint64_t taken) {
-    struct gn_at root = gn_at_root(g), extension = gn_at_object(g, &root, VARIANTS);
-    struct gn_at all = gn_at_array(g, &extension, "variants");
+    struct gn_at root = gn_at_root(g), all = gn_at_array(g, &root, VARIANTS ".variants");
     struct gn_at list = gn_at_array(g, mapping, "variants");
     uint64_t bits = 0;
     for (size_t i = 0; i < gn_at_size(&list) && !g->failed; i++) {
@@ -52,7 +44,7 @@ static uint64_t read_bits(struct gn_gltf *g, const struct gn_at *mapping, uint64
 
 size_t gn_gltf_variant_materials(struct gn_gltf *g, const struct gn_at *primitive,
                                  struct gn_variant_material *out) {
-    struct gn_at extension, mappings = mappings_of(g, primitive, &extension);
+    struct gn_at mappings = gn_at_array(g, primitive, VARIANTS ".mappings");
     uint64_t taken = 1;
     size_t count = 1;
     out[0].material = gn_at_ref(g, primitive, "material", g->file.material_count, "materials");
