@@ -59,6 +59,25 @@ bool gn_show_bar_moves(const struct gn_show_screen *s) {
     return progress_percent(s, gn_loop_now_ns(s->show->loop)) != s->text.bar;
 }
 
+/* NULL: the change has no caption. */
+static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_view *view) {
+    struct gn_show_text *t = &s->text;
+    const char *const *names = s->show->modes.names;
+    switch (view->caption) {
+    case GN_KIOSK_CAPTION_MODE:
+        if (!s->split.on) return names[view->caption_mode];
+        snprintf(t->modes, sizeof t->modes, "%.50s | %.50s", names[s->split.left],
+                 s->truth.on ? "truth" : names[view->caption_mode]);
+        return t->modes;
+    case GN_KIOSK_CAPTION_SCENE: return scene_name(s, view->caption_scene);
+    case GN_KIOSK_CAPTION_CAMERA:
+        return s->stage.scene->cameras[s->stage.shown.opts.view.camera].name;
+    case GN_KIOSK_CAPTION_NOTE: return s->viewer.note;
+    case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "pause" : NULL;
+    default: return NULL;
+    }
+}
+
 void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view *view,
                             int64_t now_ns) {
     struct gn_show_text *t = &s->text;
@@ -81,22 +100,7 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
         t->view = *view;
         t->since_ns = s->kiosk.caption_begun_ns;
-        const char *text = NULL;
-        switch (view->caption) {
-        case GN_KIOSK_CAPTION_MODE:
-            text = s->show->modes.names[view->caption_mode];
-            if (!s->split.on) break;
-            snprintf(t->modes, sizeof t->modes, "%.50s | %.50s",
-                     s->show->modes.names[s->split.left], s->truth.on ? "truth" : text);
-            text = t->modes;
-            break;
-        case GN_KIOSK_CAPTION_SCENE: text = scene_name(s, view->caption_scene); break;
-        case GN_KIOSK_CAPTION_CAMERA: text = s->stage.scene->cameras[f->view.camera].name; break;
-        case GN_KIOSK_CAPTION_NOTE: text = s->viewer.note; break;
-        case GN_KIOSK_CAPTION_PAUSE: text = view->stands ? "pause" : NULL; break;
-        default: break;
-        }
-        gn_captions_set(t->captions, GN_CAPTION_MODE, text,
+        gn_captions_set(t->captions, GN_CAPTION_MODE, change_text(s, view),
                         now_ns + s->rules.caption_ns -
                             GN_CAPTION_MODE_NS); /* so that it ends at that time */
     }

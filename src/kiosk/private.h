@@ -1,5 +1,6 @@
 /* The kiosk, inside: the process, and what its files call of each other; a screen is in screen.h.
- * The files stand from the top to the bottom: each calls only those after it. */
+ * The files stand from the top to the bottom, in the order of README.md: each calls only those
+ * after it. Some have headers of their own. */
 #ifndef GN_KIOSK_PRIVATE_H
 #define GN_KIOSK_PRIVATE_H
 
@@ -9,6 +10,7 @@
 #include "kiosk/control/answer.h"
 #include "kiosk/latency.h"
 #include "kiosk/part.h"
+#include "kiosk/reload.h"
 #include "kiosk/screen.h"
 #include "kiosk/show.h"
 #include "options/binding.h"
@@ -34,42 +36,12 @@ struct gn_show_buttons {
     struct gn_input *input;                     /* NULL while there is none */
     struct gn_latency latency;
 };
-/* Modes: those of the INI file, else the techniques. */
-struct gn_show_modes {
-    int count, first;
-    const char *names[GN_KIOSK_MODES_MAX];
-    int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
-    int base;                         /* the one without settings of its own; -1: none */
-};
 struct gn_show_scenes {
     const char *paths[GN_KIOSK_SCENES_MAX]; /* NULL: the default scene */
     int count, listed;                      /* the first `listed` are those of next-scene */
     struct gn_loader *loader;
     struct gn_watch loader_watch;
     int64_t load_begun_ns;
-};
-
-/* A reload, and the first load: its scene loads while frames go on. */
-enum { GN_SHOW_RELOAD = GN_KIOSK_SCENES_MAX /* the number of its scene */, GN_SHOW_WHY = 512 };
-enum gn_reload_cause {
-    GN_RELOAD_ASKED, /* SIGHUP, ctl reload */
-    GN_RELOAD_FILE,  /* ctl scene and rollback: a failure is told to the client alone */
-    GN_RELOAD_DROP,  /* a file dropped onto the window: a caption has a failure for a while */
-    GN_RELOAD_SEEN,  /* a file that is shown has changed: likewise */
-};
-struct gn_show_wish { /* the reload that the next step begins, once `reloads` is set */
-    enum gn_reload_cause cause;
-    char file[PATH_MAX]; /* of GN_RELOAD_FILE; "": the options' scenes */
-};
-struct gn_show_reload {
-    struct gn_options *options; /* read; NULL: none */
-    struct gn_loaded *loaded;   /* their scene; NULL: not yet, or it is staged */
-    const char *file;           /* as in gn_show_config */
-    enum gn_reload_cause cause;
-    int scene;             /* of the list of next-scene, where the mode names none */
-    bool first;            /* there is nothing to go back to */
-    bool alone;            /* its scene did not fit on the GPU beside the one that is shown */
-    char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
 };
 
 /* The first scene: it may not be loaded, and another be shown in its place. */
@@ -115,27 +87,6 @@ bool gn_show_step(struct gn_show *show, struct gn_err *err);
 bool gn_show_try_other(struct gn_show *show, struct gn_options **options,
                        const struct gn_loaded *loaded);
 
-/* ---- reload.c: SIGHUP, ctl reload and ctl scene ---------------------------------------------- */
-
-/* The reload that show->wish wants: reads the options again, and begins to load their scene, or the
- * wish's file in all modes. An unfinished reload is dropped. */
-void gn_show_reload(struct gn_show *show);
-/* The functions of struct gn_part_host. */
-bool gn_show_renew(struct gn_show *show, bool turned);
-void gn_show_scene_files(const struct gn_show *show, const char *out_paths[3]);
-/* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
- * be loaded a caption has the reason for a while. */
-void gn_show_load_file(struct gn_show *show, const char *path);
-/* The first load: starts it and waits for a second; then frames begin without it. */
-bool gn_show_load_first(struct gn_show *show, struct gn_err *err);
-/* Goes on with either. False: the new configuration cannot be shown and the old one is gone. */
-bool gn_show_step_reload(struct gn_show *show, struct gn_err *err);
-void gn_show_drop_reload(struct gn_show *show);
-
-/* control/answer.c stands here; see control/answer.h. */
-
-/* viewer.c stands here; see viewer.h. */
-
 /* ---- ahead.c: scenes that load; the rest is in screen.h -------------------------------------- */
 
 bool gn_show_open_loader(struct gn_show *show, struct gn_err *err);
@@ -172,8 +123,6 @@ bool gn_show_look_at_first(const struct gn_show *show, struct gn_options *option
 /* After the options and the stage are loaded: lists modes and scenes, enters the first. */
 bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
-/* truth.c stands here; see truth.h. */
-
 /* ---- events.c: actions as events of the machine ---------------------------------------------- */
 
 void gn_show_act(struct gn_show_screen *screen, const struct gn_action *action, int64_t time_ns);
@@ -185,23 +134,5 @@ __attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show_screen *s
                                                         const char *format, ...);
 /* One that lasts: the caption stays until a reload, and the status has it as config.error. */
 void gn_show_report_error(struct gn_show *show, enum gn_problem kind, const char *text);
-
-/* ---- modes.c: the list of modes, and one of them entered ------------------------------------- */
-
-/* Fills modes, scenes and rules from the options. */
-void gn_show_list_modes(struct gn_show *show);
-/* -1: no mode of that name. */
-int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
-const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);
-/* Rules that `ctl set` may change: idle, fade, captions. */
-void gn_show_take_rules(struct gn_show_screen *screen);
-/* How each mode draws that scene. */
-bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
-                  struct gn_show_looks *looks, struct gn_err *err);
-/* Puts the settings of the mode that is shown on the stage. */
-void gn_show_enter(struct gn_show_screen *screen);
-/* Sets the camera of a view; called for each frame. */
-void gn_show_take_view(struct gn_show_screen *screen, const struct gn_kiosk_view *view,
-                       int64_t seen_ns);
 
 #endif

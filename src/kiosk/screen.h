@@ -1,14 +1,13 @@
 /* A screen of the kiosk: its display, its GL context, the scene and the views in it, its captions,
  * and its share of the machine. The process (private.h) has the loop, options, loader, input and
- * parts; these functions find it by screen->show, and know of no other screen. They stand from the
- * top to the bottom: each calls only those after it. */
+ * parts; these functions find it by screen->show, and know of no other screen. They stand
+ * in the order of README.md; some have headers of their own. */
 #ifndef GN_KIOSK_SCREEN_H
 #define GN_KIOSK_SCREEN_H
 
-#include "caption/captions.h"
-#include "kiosk/info_page.h"
-#include "kiosk/machine.h"
+#include "kiosk/modes.h"
 #include "kiosk/split.h"
+#include "kiosk/text.h"
 #include "kiosk/truth.h"
 #include "kiosk/turntable.h"
 #include "kiosk/viewer.h"
@@ -32,26 +31,11 @@ struct gn_show_hand { /* of who turns the view */
     bool holds; /* the window's left button */
     bool wakes; /* a touch of a dark screen, in this step */
 };
-/* Of one scene, for each mode: how it is drawn, and about its programs. */
-struct gn_show_looks {
-    struct gn_stage_look of[GN_KIOSK_MODES_MAX];
-    uint32_t ready, made; /* bits 1 << mode: they are there; they were made at least once */
-};
 struct gn_show_staged {         /* a scene that is to be shown next, or a reload's */
     struct gn_loaded *loaded;   /* NULL: there is none */
     struct gn_view view;        /* of it, for its programs; its pose once the upload has begun */
     bool whole;                 /* all of it is on the GPU */
     struct gn_show_looks looks; /* of it; a reload's has one, at 0 */
-};
-/* Texts on the picture. */
-struct gn_show_text {
-    struct gn_captions *captions;
-    struct gn_info_page page;
-    int bar;                   /* percent of a load, as the last frame showed it; -1: none */
-    char help[1536];           /* in place of the information page; "": none */
-    struct gn_kiosk_view view; /* that the last caption is about, */
-    int64_t since_ns;          /* and since when */
-    char modes[120];           /* of the split screen */
 };
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
@@ -100,14 +84,10 @@ bool gn_show_take_events(struct gn_show_screen *screen, struct gn_err *err);
 bool gn_show_step_machine(struct gn_show_screen *screen, struct gn_err *err);
 bool gn_show_step_picture(struct gn_show_screen *screen, struct gn_err *err);
 
-/* viewer.c stands here; see viewer.h. */
-
 /* ---- frame.c: from the state to a frame ------------------------------------------------------ */
 
 bool gn_show_wants_frame(const struct gn_show_screen *screen);
 bool gn_show_frame(struct gn_show_screen *screen, struct gn_err *err);
-
-/* split.c stands here; see split.h. */
 
 /* ---- screen.c: the display and its context --------------------------------------------------- */
 
@@ -150,23 +130,6 @@ bool gn_show_reload_is_ready(const struct gn_show_screen *screen);  /* it is com
 void gn_show_take_staged(struct gn_show_screen *screen);
 void gn_show_drop_staged(struct gn_show_screen *screen);
 
-/* ---- captions.c: texts on the picture -------------------------------------------------------- */
-
-/* With the font of the settings; called again after a reload. A font that cannot be used is an
- * error that lasts. */
-void gn_show_open_captions(struct gn_show_screen *screen);
-/* Sets the texts of the frame of that view. */
-void gn_show_write_captions(struct gn_show_screen *screen, const struct gn_kiosk_view *view,
-                            int64_t now_ns);
-/* The last part of a path; NULL: the built-in scene. */
-const char *gn_show_path_name(const char *path);
-/* When the texts need another frame; 0: at once, INT64_MAX: never. */
-int64_t gn_show_captions_due_ns(const struct gn_show_screen *screen);
-/* The bar of a load wants another frame; when to ask again (INT64_MAX: nothing loads,
- * or the screen is dark or has no monitor). */
-bool gn_show_bar_moves(const struct gn_show_screen *screen);
-int64_t gn_show_bar_due_ns(const struct gn_show_screen *screen);
-
 /* ---- moves.c: moves by hand to the view ------------------------------------------------------ */
 
 void gn_show_take_moves(struct gn_show_screen *screen, struct gn_pointer *pointer);
@@ -177,7 +140,5 @@ bool gn_show_turntable_moves(const struct gn_show_screen *screen);
 int64_t gn_show_turntable_due_ns(
     const struct gn_show_screen *screen); /* when it goes on; INT64_MAX */
 void gn_show_step_turntable(struct gn_show_screen *screen, int64_t seen_ns, int64_t scene_ns);
-
-/* truth.c stands here; see truth.h. */
 
 #endif
