@@ -325,7 +325,7 @@ static void close_and_open(struct gn_show *show, int part, enum state state) {
     fail_to_open(show, part);
     if (less > 0 && !gn_problem_last(&show->problems))
         fail_msg("%s: cannot be opened while %s, and there is no problem", row->name, names[state]);
-    if (count_files("") != files - less)
+    if (count_files("") > files - less) /* a thread that ends may have closed more by now */
         fail_msg("%s: what failed to open while %s leaves files", row->name, names[state]);
     step_soon(show);
     gn_part_close(&show->parts, part);
@@ -365,7 +365,8 @@ static void a_kiosk_that_has_ended_leaves_nothing_open(void **state) {
         struct gn_show *show = open_show(in, all_trials());
         enter(show, in);
         gn_show_close(show);
-        usleep(20000); /* threads that are not waited for */
+        for (int i = 0; i < 60000 && count_files("") > files; i++)
+            usleep(1000); /* threads that are not waited for */
         assert_int_equal(count_files(""), files);
     }
 }
