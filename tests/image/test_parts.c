@@ -70,18 +70,22 @@ static bool has_health(struct gn_show *show) {
     return row->status(show->parts.of[GN_PART_health]);
 }
 
+/* A step that waits for nothing. */
+static void step_soon(struct gn_show *show) {
+    struct gn_timer wake = {.due_ns = gn_clock_monotonic_ns() + GN_NS_PER_S / 200};
+    gn_loop_add_timer(show->loop, &wake);
+    help_show_step(show);
+    gn_loop_remove_timer(&wake);
+}
+
 /* Until all that was asked for has been done. */
 static void settle(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_monotonic_ns();
-    struct gn_timer wake = {.due_ns = GN_LOOP_NEVER};
-    gn_loop_add_timer(show->loop, &wake);
     do {
-        wake.due_ns = gn_clock_monotonic_ns() + GN_NS_PER_S / 100;
-        help_show_step(show);
+        step_soon(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     } while (show->reloads || show->reload.options || gn_show_is_stale(&show->screen) ||
              gn_kiosk_waits(&show->screen.kiosk) || !has_health(show));
-    gn_loop_remove_timer(&wake);
 }
 
 static struct gn_show *open_show(enum state state, unsigned with) {
@@ -108,7 +112,7 @@ static void enter(struct gn_show *show, enum state state) {
     assert_int_equal(show->screen.kiosk.asleep, state == ASLEEP);
     if (state != LOADING) return;
     show->reloads = true;
-    help_show_step(show);
+    step_soon(show);
     assert_non_null(show->reload.options);
 }
 
@@ -322,9 +326,9 @@ static void close_and_open(struct gn_show *show, int part, enum state state) {
     fail_to_open(show, part);
     if (less > 0 && !gn_problem_last(&show->problems))
         fail_msg("%s: cannot be opened while %s, and there is no problem", row->name, names[state]);
-    if (count_files("") != files - less)
+    if (count_files("") > files - less) /* a thread that ends may have closed more by now */
         fail_msg("%s: what failed to open while %s leaves files", row->name, names[state]);
-    help_show_step(show);
+    step_soon(show);
     gn_part_close(&show->parts, part);
     gn_part_close(&show->parts, part); /* legal */
     open_part(show, part);
@@ -362,7 +366,8 @@ static void a_kiosk_that_has_ended_leaves_nothing_open(void **state) {
         struct gn_show *show = open_show(in, all_trials());
         enter(show, in);
         gn_show_close(show);
-        usleep(20000); /* threads that are not waited for */
+        for (int i = 0; i < 60000 && count_files("") > files; i++)
+            usleep(1000); /* threads that are not waited for */
         assert_int_equal(count_files(""), files);
     }
 }
