@@ -18,7 +18,7 @@ flat in vec4 v_emissive; // radiance; w: 1 = casts
 in vec3 v_shadow[SHADOW_COUNT]; // of slots with SHADOW_LINEAR or SHADOW_PROJECTED, from lit.vert
 #endif
 
-uniform vec4 u_factors[1 + LAYER_COUNT]; // then FACTOR_.. of a layer each (src/scene/material.h)
+uniform vec4 u_factors[1 + FACTOR_VECTORS]; // then FACTOR_.. of layers (src/scene/material.h)
 #define FACTOR_REFLECTANCE u_factors[0].rgb // at normal incidence, of what is no metal
 #define FACTOR_LIGHTMAP    u_factors[0].w   // intensity
 

@@ -65,11 +65,11 @@ static void add_material(const struct gn_program_key *key, struct gn_gl_text *ou
     gn_gl_text_add(out, "#define EACH_TEXTURE(F)");
     if (each.size > 0) gn_gl_text_add_bytes(out, each.data, each.size);
     gn_gl_text_finish(&each);
-    gn_gl_text_add(out, "\nconst int SLOT_COUNT = %d;\nconst int LAYER_COUNT = %d;\n",
-                   GN_TEXTURE_SLOT_COUNT, GN_LAYER_COUNT);
-#define GN_X(LAYER, NAME, first, components, ...)                                                  \
-    gn_gl_text_add(out, "#define FACTOR_%s u_factors[%d].%.*s\n", #NAME, 1 + GN_LAYER_##LAYER,     \
-                   components, &"xyzw"[first]);
+    gn_gl_text_add(out, "\nconst int SLOT_COUNT = %d;\nconst int FACTOR_VECTORS = %d;\n",
+                   GN_TEXTURE_SLOT_COUNT, GN_FACTORS_VECTORS);
+#define GN_X(LAYER, NAME, components, ...)                                                         \
+    gn_gl_text_add(out, "#define FACTOR_%s u_factors[%d].%.*s\n", #NAME, 1 + GN_FACTOR_##NAME / 4, \
+                   components, &"xyzw"[GN_FACTOR_##NAME % 4]);
     GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
 #undef GN_X
 }

@@ -54,7 +54,7 @@ struct gn_gl_upload {
 };
 enum { /* vectors of a material in uniforms: u_uv, then u_factors (lib/vertex.glsl, surface.glsl) */
        GN_GL_TRANSFORMS = 2 * GN_TEXTURE_SLOT_COUNT,
-       GN_GL_FACTORS = 1 + GN_LAYER_COUNT,
+       GN_GL_FACTORS = 1 + GN_FACTORS_VECTORS,
        GN_GL_UV_COUNT = GN_GL_TRANSFORMS + GN_GL_FACTORS,
 };
 struct gn_gl_scene {

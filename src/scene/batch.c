@@ -54,8 +54,11 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
         if (m->textures[GN_TEXTURE_LIGHTMAP].texture >= 0)
             memcpy(to, &m->lightmap_intensity, sizeof m->lightmap_intensity);
         to++;
-        for (int k = 0; k < GN_LAYER_COUNT; k++, to += 4)
-            if (gn_material_has(m, k)) memcpy(to, m->factors + 4 * k, 4 * sizeof *m->factors);
+        for (int k = 0; k < GN_LAYER_COUNT; k++) {
+            int first = gn_layers[k].first, count = gn_layers[k + 1].first - first;
+            if (gn_material_has(m, k)) memcpy(to, m->factors + first, (size_t)count * sizeof *to);
+            to += count;
+        }
         *to++ = gn_material_is_tinted(m);
         *to++ = m->moves ? i + 1 : 0; /* its uniforms are its own */
         assert(to == looks[i].word + LOOK_WORDS);

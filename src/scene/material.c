@@ -13,13 +13,11 @@ float gn_material_least_alpha(const struct gn_material *m) {
     return m->alpha_cutoff > 1.0f ? m->alpha_cutoff : m->alpha_cutoff - 0.5f / 255.0f;
 }
 
-static const struct {
-    int amount;
-    bool reflects;
-} layers[GN_LAYER_COUNT] = {
-#define GN_X(NAME, name, amount, reflects) [GN_LAYER_##NAME] = {amount, reflects},
+const struct gn_layer_row gn_layers[GN_LAYER_COUNT + 1] = {
+#define GN_X(NAME, name, amount, reflects) {GN_FACTORS_OF_##NAME, amount, reflects},
     GN_LAYERS(GN_X, GN_LEAVE_OUT, GN_LEAVE_OUT)
 #undef GN_X
+        {GN_FACTORS_SIZE, 0, false},
 };
 
 bool gn_material_is_metal(const struct gn_material *m) {
@@ -34,8 +32,9 @@ bool gn_material_has_opaque_texels(const struct gn_material *m) {
 }
 
 bool gn_material_has(const struct gn_material *m, enum gn_layer layer) {
+    const struct gn_layer_row *row = &gn_layers[layer];
     bool has = m->moves >> layer & GN_MOVES_FIRST_LAYER;
-    for (int i = 0; i < layers[layer].amount; i++) has |= m->factors[4 * layer + i] > 0.0f;
+    for (int i = 0; i < row->amount; i++) has |= m->factors[row->first + i] > 0.0f;
     return has;
 }
 
@@ -43,7 +42,7 @@ bool gn_material_has(const struct gn_material *m, enum gn_layer layer) {
 static bool has_layers(const struct gn_material *m, bool all) {
     bool has = false;
     for (int i = 0; i < GN_LAYER_COUNT; i++)
-        has |= (all || layers[i].reflects) && gn_material_has(m, i);
+        has |= (all || gn_layers[i].reflects) && gn_material_has(m, i);
     return has;
 }
 

@@ -17,19 +17,18 @@
 #define GN_TRANSMITS "extensions.KHR_materials_transmission"
 
 /* From the base upwards; first of each layer L, then its F and T. */
-/* L(NAME, "name", amount, reflects): there is none of it where the first `amount` components of its
- * factors are 0. reflects: most of what one sees of it are reflections. */
-/* F(layer, NAME, first, components, path in the JSON of a material, default, least, most): a
- * factor, the components `first` and following of the layer's vec4. */
+/* L(NAME, "name", amount, reflects): there is none of it where the first `amount` of its numbers
+ * are 0. reflects: most of what one sees of it are reflections. */
+/* F(layer, NAME, components, path in the JSON of a material, default, least, most): a factor. */
 /* T(as X of GN_TEXTURE_SLOTS): a texture that is read for the layer. */
 #define GN_LAYERS(L, F, T)                                                                         \
     L(TRANSMISSION, "transmission", 1, true) /* shows what is behind */                            \
-    F(TRANSMISSION, TRANSMISSION, 0, 1, GN_TRANSMITS ".transmissionFactor", 0, 0, 1)               \
+    F(TRANSMISSION, TRANSMISSION, 1, GN_TRANSMITS ".transmissionFactor", 0, 0, 1)                  \
     T(TRANSMISSION, transmission, "transmission-texture", GN_TRANSMITS ".transmissionTexture",     \
       LINEAR, TRANSMISSION) /* R: factor */                                                        \
     L(COAT, "coat", 1, true)                                                                       \
-    F(COAT, COAT, 0, 1, GN_CLEARCOAT ".clearcoatFactor", 0, 0, 1)                                  \
-    F(COAT, COAT_ROUGHNESS, 1, 1, GN_CLEARCOAT ".clearcoatRoughnessFactor", 0, 0, 1)               \
+    F(COAT, COAT, 1, GN_CLEARCOAT ".clearcoatFactor", 0, 0, 1)                                     \
+    F(COAT, COAT_ROUGHNESS, 1, GN_CLEARCOAT ".clearcoatRoughnessFactor", 0, 0, 1)                  \
     T(COAT, coat, "coat-texture", GN_CLEARCOAT ".clearcoatTexture", LINEAR, COAT) /* R: factor */  \
     T(COAT_ROUGHNESS, coat_roughness, "coat-roughness", GN_CLEARCOAT ".clearcoatRoughnessTexture", \
       LINEAR, COAT)       /* G */
@@ -41,16 +40,29 @@ enum gn_layer {
 #undef GN_X
         GN_LAYER_COUNT,
 };
-enum gn_factor { /* the first of its floats in gn_material.factors, a vec4 per layer */
-#define GN_X(LAYER, NAME, first, ...) GN_FACTOR_##NAME = 4 * GN_LAYER_##LAYER + (first),
-                 GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
+/* Index of a factor's first number in gn_material.factors, where those of a layer stand together,
+ * and those of all layers without gaps: lib/surface.glsl reads them as vec4. */
+enum gn_factor {
+#define GN_LAYER_BEGIN(NAME, ...) GN_FACTORS_OF_##NAME, GN_BEFORE_##NAME = GN_FACTORS_OF_##NAME - 1,
+#define GN_X(LAYER, NAME, components, ...)                                                         \
+    GN_FACTOR_##NAME, GN_FACTOR_END_##NAME = GN_FACTOR_##NAME + (components)-1,
+    GN_LAYERS(GN_LAYER_BEGIN, GN_X, GN_LEAVE_OUT)
 #undef GN_X
-                     GN_FACTORS_SIZE = 4 * GN_LAYER_COUNT,
+#undef GN_LAYER_BEGIN
+        GN_FACTORS_SIZE,
+    GN_FACTORS_VECTORS = (GN_FACTORS_SIZE + 3) / 4, /* vec4 that hold them */
 };
-#define GN_X(LAYER, NAME, first, components, ...)                                                  \
-    _Static_assert((first) + (components) <= 4, "a layer has one vec4");
+#define GN_X(LAYER, NAME, components, ...)                                                         \
+    _Static_assert(GN_FACTOR_##NAME % 4 + (components) <= 4, "lies in one vec4: order its layer");
 GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
 #undef GN_X
+
+struct gn_layer_row {
+    int first;  /* of its numbers in gn_material.factors; the next row's first is their end */
+    int amount; /* how many of them say whether there is any of it */
+    bool reflects;
+};
+extern const struct gn_layer_row gn_layers[GN_LAYER_COUNT + 1];
 
 /* X(NAME, name, printed name, path in the JSON of a material, texels, read for) */
 #define GN_TEXTURE_SLOTS(X)                                                                        \

@@ -19,7 +19,7 @@ const struct gn_property gn_material_properties[] = {
     {GN_THING_MATERIAL, path, FLOATS(material, field), components, GN_MOVES_##MOVES, __VA_ARGS__},
     GN_MATERIAL_PROPERTIES(GN_X)
 #undef GN_X
-#define GN_X(LAYER, NAME, first, components, path, ...)                                            \
+#define GN_X(LAYER, NAME, components, path, ...)                                                   \
     {GN_THING_MATERIAL, path,       FLOATS(material, factors) + GN_FACTOR_##NAME, components,      \
      GN_MOVES_##LAYER,  __VA_ARGS__},
         GN_LAYERS(GN_LEAVE_OUT, GN_X, GN_LEAVE_OUT)
@@ -149,8 +149,10 @@ void gn_material_make(const struct gn_material_record *record, uint32_t moves,
     if (moves & GN_MOVES_CUTOFF) m->alpha_cutoff = r.alpha_cutoff;
     if (moves & GN_MOVES_NORMAL) m->normal_scale = r.normal_scale;
     if (moves & GN_MOVES_OCCLUSION) m->occlusion_strength = r.occlusion_strength;
-    for (int i = 0; i < GN_FACTORS_SIZE; i++)
-        if (moves & GN_MOVES_FIRST_LAYER << i / 4) m->factors[i] = r.factors[i];
+    for (int k = 0; k < GN_LAYER_COUNT; k++)
+        for (int i = gn_layers[k].first;
+             moves >> k & GN_MOVES_FIRST_LAYER && i < gn_layers[k + 1].first; i++)
+            m->factors[i] = r.factors[i];
     for (int k = 0; k < 3; k++) {
         if (moves & GN_MOVES_EMISSIVE)
             m->emissive[k] = fminf(r.emissive[k] * r.emissive_strength, 1e9f);

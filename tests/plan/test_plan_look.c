@@ -110,7 +110,7 @@ static void check_layer(enum gn_layer layer, uint64_t feature) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     assert_false(lit_features(gn_plan_make(&f)) & feature);
     for (uint32_t i = 0; i < f.scene->material_count; i++)
-        f.scene->materials[i].factors[4 * layer] = 0.5f;
+        f.scene->materials[i].factors[gn_layers[layer].first] = 0.5f;
     assert_true(lit_features(gn_plan_make(&f)) & feature);
     gn_plan_end(&f);
 }
