@@ -363,7 +363,7 @@ exec {silence}<> /run/silence
 run_members() {
     local member
     for member in $MEMBERS; do
-        mount --bind "/run/out/tests/$member" /out
+        /run/busybox mount --bind "/run/out/tests/$member" /out
         : > /out/uevents
         say "==== $member"
         (
@@ -372,7 +372,7 @@ run_members() {
             exit "$bad"
         ) || bad=1
         clear_away
-        umount -l /out
+        /run/busybox umount -l /out
     done
 }
 clear_away() {
@@ -386,7 +386,7 @@ clear_away() {
     sleep 1
 }
 
-mkdir -p /run/out && mount --bind /out /run/out
+mkdir -p /run/out && /run/busybox mount --bind /out /run/out
 cp -R /out/cache /tmp/cache && cp /out/bin/* /tmp/ && PATH=/tmp:$PATH
 exec {monitor}<> "$(port qmp)"
 qmp '{"execute":"qmp_capabilities"}' || bad=1
