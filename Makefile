@@ -269,8 +269,8 @@ HOST     = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$
            $(filter %.c,$^) $(HOST_LIBS) -lm
 ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
-MAN_C   := $(addprefix src/,options/buttons.c options/kind_button.c options/section.c options/options.c options/settings.c options/table.c options/value.c \
-           options/action.c options/binding.c options/command.c options/schedule.c options/viewer_keys.c cli/help.c core/arena.c core/err.c core/key.c core/text.c \
+MAN_C   := $(filter-out $(patsubst %,src/options/%.c,args change content file ini lesson),$(wildcard src/options/*.c)) \
+           $(addprefix src/,cli/help.c core/arena.c core/err.c core/key.c core/text.c \
            frame/caps.c display/kms/modeline.c scene/limits.c core/memory.c shadow/moments.c shadow/technique.c)
 $(O)/host/embed: board/host/embed.c
 $(O)/host/man $(O)/host/completion: $(O)/host/%: board/host/%.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h

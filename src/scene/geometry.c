@@ -398,7 +398,7 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
     for (uint32_t i = 0; i < scene->geometry_count; i++) {
         struct gn_shape *shape = &g->primitives.shapes[i];
         struct gn_geometry *geometry = &scene->geometries[i];
-        gn_gltf_progress(g, 480 + (unsigned)(UINT64_C(220) * i / scene->geometry_count));
+        gn_gltf_progress(g, i, scene->geometry_count);
         struct gn_at mesh = gn_at_element(&meshes, shape->mesh);
         struct gn_at list = gn_at_array(g, &mesh, "primitives");
         struct gn_at at = gn_at_element(&list, shape->primitive);

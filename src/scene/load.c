@@ -85,8 +85,11 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
     g->hash_key = gn_hash_key_make();
     g->end_ns = gn_clock_thread_cpu_ns() + (int64_t)g->limits.seconds * GN_NS_PER_S;
     bool done = gn_gltf_open(g, data, size);
-    for (size_t i = 0; done && i < sizeof STEPS / sizeof STEPS[0]; i++) {
-        gn_gltf_progress(g, STEPS[i].permille);
+    const size_t steps = sizeof STEPS / sizeof STEPS[0];
+    for (size_t i = 0; done && i < steps; i++) {
+        g->permille[0] = STEPS[i].permille;
+        g->permille[1] = i + 1 < steps ? STEPS[i + 1].permille : 1000;
+        gn_gltf_progress(g, 0, 1);
         done = STEPS[i].run(g) && gn_gltf_check_time(g);
     }
     done = done && !g->failed;

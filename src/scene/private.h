@@ -171,6 +171,7 @@ struct gn_gltf {
     struct gn_err *err;
     struct gn_hash_key hash_key; /* of the tables of this load */
     int64_t end_ns;              /* of the thread's processor time: the limit on seconds */
+    unsigned permille[2];        /* of the load, where its present step begins and ends */
     uint32_t getters;            /* calls since the start; every so often one looks at the clock */
     bool failed;
     bool is_missing[GN_MISSING_COUNT];
@@ -212,8 +213,8 @@ size_t gn_gltf_room(const struct gn_gltf *g);
 /* Fails the load when its limit on seconds is over or it is cancelled. Reads a clock: once for each
  * geometry, picture and clip, and in one of many getters of gltf/json.h. */
 bool gn_gltf_check_time(struct gn_gltf *g);
-/* How much of the load is done, for limits.progress. */
-void gn_gltf_progress(const struct gn_gltf *g, unsigned permille);
+/* How much of the present step of the load is done, for limits.progress. */
+void gn_gltf_progress(const struct gn_gltf *g, uint64_t done, uint64_t all);
 
 /* ---- the steps of load.c, in order ---- */
 

@@ -142,7 +142,7 @@ static bool is_stable(const struct gn_metric *m) {
                                          "television.waits"};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
         if (strcmp(m->name, others[i]) == 0) return false;
-    return m->kind != GN_METRIC_NUMBER && m->kind != GN_METRIC_COUNTER;
+    return strcmp(m->unit, "s") != 0 && m->kind != GN_METRIC_NUMBER && m->kind != GN_METRIC_COUNTER;
 }
 
 /* Those whose names begin so, without what a thread has open for a moment. */

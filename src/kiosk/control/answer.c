@@ -197,8 +197,8 @@ static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
 /* ---- reloading ---- */
 
 /* Answered when the reload is done. */
-static json_t *begin_reload(struct gn_show *s, const struct gn_request *r,
-                            enum gn_reload_cause cause, const char *file) {
+static json_t *ask_reload(struct gn_show *s, const struct gn_request *r, enum gn_reload_cause cause,
+                          const char *file) {
     struct gn_show_control *c = s->control;
     struct gn_err replaced;
     gn_fail(&replaced, "a later reload replaces this one");
@@ -212,20 +212,20 @@ static json_t *begin_reload(struct gn_show *s, const struct gn_request *r,
 
 static json_t *answer_reload(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     (void)err;
-    return begin_reload(s, r, GN_RELOAD_ASKED, "");
+    return ask_reload(s, r, GN_RELOAD_ASKED, "");
 }
 
 /* The client knows its own working directory; the kiosk opens the file with its own rights. */
 static json_t *answer_scene(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
     const char *file = r->words[0];
     if (file[0] == '/' && strlen(file) < sizeof s->wish.file)
-        return begin_reload(s, r, GN_RELOAD_FILE, file);
+        return ask_reload(s, r, GN_RELOAD_FILE, file);
     gn_fail_usage(err, "scene: expected a whole path, from / on");
     return NULL;
 }
 
 static json_t *answer_rollback(struct gn_show *s, const struct gn_request *r, struct gn_err *err) {
-    if (s->config.has_past) return begin_reload(s, r, GN_RELOAD_FILE, s->config.past);
+    if (s->config.has_past) return ask_reload(s, r, GN_RELOAD_FILE, s->config.past);
     gn_fail(err, "rollback: no scene FILE has replaced another one");
     return NULL;
 }

@@ -15,6 +15,8 @@ bool gn_gltf_check_time(struct gn_gltf *g) {
                         g->limits.seconds);
 }
 
-void gn_gltf_progress(const struct gn_gltf *g, unsigned permille) {
-    if (g->limits.progress) atomic_store(g->limits.progress, permille);
+void gn_gltf_progress(const struct gn_gltf *g, uint64_t done, uint64_t all) {
+    const unsigned from = g->permille[0], length = g->permille[1] - from;
+    if (g->limits.progress)
+        atomic_store(g->limits.progress, from + (unsigned)(length * done / all));
 }
