@@ -98,7 +98,7 @@ judge() {
         echo "ok    $name ($took)"
         return
     fi
-    failures="$name (status $status)"
+    failures="$name (status $status) $(grep -m 3 FAIL "$log" | cut -c 1-300 | tr '\n' ';')"
     echo "FAIL  $name (status $status, $took); the end of $log:"
     tail -n 40 "$log" | sed 's/^/    /'
 }
