@@ -1,4 +1,5 @@
 /* The .glb under construction. */
+#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -22,9 +23,21 @@ bool gn_bake_fail(struct gn_baker *b, const char *format, ...) {
     return gn_fail(b->err, "%s: %s", b->opts->path, text);
 }
 
+static bool fail_memory(struct gn_baker *b) {
+    return gn_bake_fail(b, "out of memory, or over the limit memory_mb=%" PRIu64,
+                        gn_scene_limits_or_default(b->opts->limits).memory_mb);
+}
+
+bool gn_bake_has_room(const struct gn_baker *b, uint64_t bytes) {
+    return b->whole.used + b->step.used + b->room + bytes <= gn_document_room(b->in);
+}
+
 void *gn_bake_alloc(struct gn_baker *b, size_t count, size_t size) {
-    void *memory = b->failed ? NULL : gn_arena_alloc(&b->step, count, size);
-    if (!memory) gn_bake_fail(b, "out of memory");
+    uint64_t bytes;
+    void *memory = NULL;
+    if (!b->failed && !__builtin_mul_overflow(count, size, &bytes) && gn_bake_has_room(b, bytes))
+        memory = gn_arena_alloc(&b->step, count, size);
+    if (!memory) fail_memory(b);
     return memory;
 }
 
@@ -35,9 +48,9 @@ static bool reserve_bytes(struct gn_baker *b, size_t size) {
     if (size > UINT32_MAX || b->size + size > UINT32_MAX)
         return gn_bake_fail(b, "too large for a .glb (4 GB)");
     if (b->size + size <= b->room) return true;
-    const size_t room = 2 * (b->size + size);
-    uint8_t *more = realloc(b->bin, room);
-    if (!more) return gn_bake_fail(b, "out of memory");
+    const size_t least = b->size + size, room = gn_bake_has_room(b, 2 * least) ? 2 * least : least;
+    uint8_t *more = gn_bake_has_room(b, room) ? realloc(b->bin, room) : NULL;
+    if (!more) return fail_memory(b);
     b->bin = more;
     b->room = room;
     return true;
@@ -166,8 +179,8 @@ static bool write_glb(struct gn_baker *b, const char *text, struct gn_bytes *out
     const size_t length = strlen(text), json = (length + 3) / 4 * 4;
     const size_t bin = b->size > 0 ? CHUNK + b->size : 0, total = HEADER + CHUNK + json + bin;
     if (total > UINT32_MAX) return gn_bake_fail(b, "too large for a .glb (4 GB)");
-    uint8_t *at = out->data = malloc(total);
-    if (!at) return gn_bake_fail(b, "out of memory");
+    uint8_t *at = out->data = gn_bake_has_room(b, total) ? malloc(total) : NULL;
+    if (!at) return fail_memory(b);
     out->size = total;
     const size_t head[] = {MAGIC, 2, total, json, JSON};
     for (int i = 0; i < 5; i++, at += 4) put_u32(at, head[i]);

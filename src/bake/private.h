@@ -47,7 +47,10 @@ struct gn_baker {
 /* False. */
 bool gn_bake_fail(struct gn_baker *b, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-void *gn_bake_alloc(struct gn_baker *b, size_t count, size_t size); /* of the step; zeroed */
+/* Zeroed memory of the step, within the limit memory_mb over all that the document and the baker
+ * hold; NULL fails the run. */
+void *gn_bake_alloc(struct gn_baker *b, size_t count, size_t size);
+bool gn_bake_has_room(const struct gn_baker *b, uint64_t bytes); /* for so many more */
 
 enum gn_block_kind { GN_BLOCK_VERTICES, GN_BLOCK_TRIANGLES, GN_BLOCK_OTHER, GN_BLOCK_BYTES };
 struct gn_block {

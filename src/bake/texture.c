@@ -141,6 +141,8 @@ static bool scale(struct gn_baker *b, int format, const struct gn_bytes *from, i
         return gn_fail(why, "%ux%u is over the limit texels=%llu", px[0], px[1],
                        (unsigned long long)limits.texels);
     for (int k = 0; k < 2; k++) to[k] = scaled_px(px[k], larger, limit);
+    if (!gn_bake_has_room(b, 4 * (texels + (uint64_t)to[0] * to[1])))
+        return gn_fail(why, "exceeds the limit memory_mb");
     uint8_t *rgba = gn_bake_alloc(b, texels, 4);
     uint8_t *small = gn_bake_alloc(b, (size_t)to[0] * to[1], 4);
     if (!small || !decode(format, from, px, rgba, why)) return false;

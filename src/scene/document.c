@@ -46,6 +46,7 @@ void gn_document_close(struct gn_document *d) {
 const json_t *gn_document_json(const struct gn_document *d) { return d->g.file.json; }
 size_t gn_document_accessor_count(const struct gn_document *d) { return d->g.file.accessor_count; }
 size_t gn_document_view_count(const struct gn_document *d) { return d->g.file.view_count; }
+size_t gn_document_room(const struct gn_document *d) { return gn_gltf_room(&d->g); }
 
 static bool fail_accessor(struct gn_document *d, size_t index, const char *what) {
     struct gn_at root = gn_at_root(&d->g), array = gn_at_array(&d->g, &root, "accessors");

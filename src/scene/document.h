@@ -31,6 +31,8 @@ void gn_document_close(struct gn_document *document);
 const json_t *gn_document_json(const struct gn_document *document);
 size_t gn_document_accessor_count(const struct gn_document *document);
 size_t gn_document_view_count(const struct gn_document *document);
+/* Bytes that the limit memory_mb leaves beside what the document holds. */
+size_t gn_document_room(const struct gn_document *document);
 
 /* Owned by the document. False: failed. */
 bool gn_document_accessor(struct gn_document *document, size_t index, struct gn_elements *out);
