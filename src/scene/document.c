@@ -25,7 +25,7 @@ struct gn_document *gn_document_open(const char *path, const void *data, size_t 
     g->hash_key = gn_hash_key_make();
     g->end_ns = gn_clock_thread_cpu_ns() + (int64_t)g->limits.seconds * GN_NS_PER_S;
     if (gn_gltf_open(g, data, size) && gn_gltf_check_support(g) && gn_gltf_buffers(g) &&
-        gn_gltf_accessors(g))
+        gn_gltf_list_accessors(g))
         return d;
     gn_document_close(d);
     return NULL;

@@ -55,7 +55,7 @@ static const struct {
 } STEPS[] = {
     {gn_gltf_check_support, FILE_PERMILLE},
     {gn_gltf_buffers, 320},
-    {gn_gltf_accessors, 420},
+    {gn_gltf_list_accessors, 420},
     {count_textures, 450},
     {gn_gltf_nodes, 450},
     {gn_gltf_variants, 460},

@@ -223,24 +223,24 @@ bool gn_gltf_check_support(struct gn_gltf *g);
 bool gn_gltf_supports(const char *extension); /* a reader knows it */
 bool gn_gltf_uses(const struct gn_gltf *g, const char *extension);
 bool gn_gltf_requires(const struct gn_gltf *g, const char *extension);
-bool gn_gltf_buffers(struct gn_gltf *g);    /* gltf/buffers.c */
-bool gn_gltf_accessors(struct gn_gltf *g);  /* gltf/accessor.c */
-bool gn_gltf_nodes(struct gn_gltf *g);      /* gltf/node.c */
-bool gn_gltf_variants(struct gn_gltf *g);   /* gltf/variant.c */
-bool gn_gltf_meshes(struct gn_gltf *g);     /* gltf/mesh.c */
-bool gn_gltf_instances(struct gn_gltf *g);  /* gltf/instance.c */
-bool gn_gltf_skins(struct gn_gltf *g);      /* gltf/skin.c */
-bool gn_gltf_far(struct gn_gltf *g);        /* gltf/far.c */
-bool gn_gltf_geometries(struct gn_gltf *g); /* geometry.c */
-bool gn_gltf_items(struct gn_gltf *g);      /* gltf/item.c */
-bool gn_gltf_pointers(struct gn_gltf *g);   /* gltf/pointer.c */
-bool gn_gltf_materials(struct gn_gltf *g);  /* gltf/material.c */
-bool gn_gltf_lights(struct gn_gltf *g);     /* gltf/light.c */
-bool gn_gltf_cameras(struct gn_gltf *g);    /* gltf/camera.c */
-bool gn_gltf_animations(struct gn_gltf *g); /* gltf/anim.c */
-bool gn_scene_complete(struct gn_gltf *g);  /* complete.c */
-bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
-bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
+bool gn_gltf_buffers(struct gn_gltf *g);        /* gltf/buffers.c */
+bool gn_gltf_list_accessors(struct gn_gltf *g); /* gltf/accessor.c */
+bool gn_gltf_nodes(struct gn_gltf *g);          /* gltf/node.c */
+bool gn_gltf_variants(struct gn_gltf *g);       /* gltf/variant.c */
+bool gn_gltf_meshes(struct gn_gltf *g);         /* gltf/mesh.c */
+bool gn_gltf_instances(struct gn_gltf *g);      /* gltf/instance.c */
+bool gn_gltf_skins(struct gn_gltf *g);          /* gltf/skin.c */
+bool gn_gltf_far(struct gn_gltf *g);            /* gltf/far.c */
+bool gn_gltf_geometries(struct gn_gltf *g);     /* geometry.c */
+bool gn_gltf_items(struct gn_gltf *g);          /* gltf/item.c */
+bool gn_gltf_pointers(struct gn_gltf *g);       /* gltf/pointer.c */
+bool gn_gltf_materials(struct gn_gltf *g);      /* gltf/material.c */
+bool gn_gltf_lights(struct gn_gltf *g);         /* gltf/light.c */
+bool gn_gltf_cameras(struct gn_gltf *g);        /* gltf/camera.c */
+bool gn_gltf_animations(struct gn_gltf *g);     /* gltf/anim.c */
+bool gn_scene_complete(struct gn_gltf *g);      /* complete.c */
+bool gn_scene_batch(struct gn_gltf *g);         /* batch.c */
+bool gn_scene_count_gpu(struct gn_gltf *g);     /* gpu.c */
 
 /* ---- helpers ---- */
 

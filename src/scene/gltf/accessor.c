@@ -173,7 +173,7 @@ const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
     return a->resolved ? a : NULL;
 }
 
-bool gn_gltf_accessors(struct gn_gltf *g) {
+bool gn_gltf_list_accessors(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "accessors");
     g->file.accessor_count = gn_at_size(&array);
     g->file.accessors =
