@@ -197,7 +197,7 @@ struct own {
 /* Renumbers the vertices in the order in which corners use them. */
 static bool compact_vertices(struct gn_gltf *g, size_t vertex_count, struct own *own) {
     uint32_t *numbers = gn_gltf_alloc(g, &g->memory.step, vertex_count, sizeof *numbers);
-    own->source = gn_gltf_alloc(g, &g->memory.step, own->corner_count, sizeof *own->source);
+    GN_NEW(g, &g->memory.step, own->source, own->corner_count);
     if (g->failed) return false;
     for (size_t i = 0; i < own->corner_count; i++) {
         uint32_t *number = &numbers[own->corners[i]];
@@ -375,12 +375,9 @@ static bool allocate_vertices(struct gn_gltf *g) {
     if (corners + 6 * added > UINT32_MAX)
         return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
     vertices += 4 * added;
-    scene->geometries =
-        gn_gltf_alloc(g, g->memory.scene, scene->geometry_count + added, sizeof *scene->geometries);
-    scene->buffers.indices =
-        gn_gltf_alloc(g, g->memory.scene, corners + 6 * added, sizeof *scene->buffers.indices);
-    scene->buffers.spreads =
-        gn_gltf_alloc(g, g->memory.scene, vertices, sizeof *scene->buffers.spreads);
+    GN_NEW(g, g->memory.scene, scene->geometries, scene->geometry_count + added);
+    GN_NEW(g, g->memory.scene, scene->buffers.indices, corners + 6 * added);
+    GN_NEW(g, g->memory.scene, scene->buffers.spreads, vertices);
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         if (any[i])
             scene->buffers.attributes[i] =

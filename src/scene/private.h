@@ -201,6 +201,9 @@ void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format,
 
 /* Zeroed memory within memory_mb over all arenas; NULL fails the load. */
 void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size);
+/* The same for a pointer: so many of what it points to. */
+#define GN_NEW(g, arena, pointer, count)                                                           \
+    ((pointer) = gn_gltf_alloc(g, arena, count, sizeof *(pointer)))
 /* Counts memory that lies elsewhere, as of the GPU, within memory_mb; false fails the load. */
 bool gn_gltf_count(struct gn_gltf *g, uint64_t bytes);
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text); /* "" for NULL; into the scene */
