@@ -9,7 +9,7 @@
 #include "bake/reorder.h"
 #include "core/encoding.h"
 
-bool gn_bake_is_built(void) { return gn_reorder_is_built(); }
+bool gn_bake_is_built(void) { return gn_reorder; }
 
 /* A copy in which whole numbers are integers again: a document has only reals. */
 static json_t *copy_json(const json_t *json) {

@@ -72,10 +72,10 @@ static size_t put_block(struct gn_baker *b, const struct gn_block *block, size_t
     size_t packed = 0;
     uint8_t *at = b->bin + b->size;
     if (block->kind == GN_BLOCK_TRIANGLES)
-        packed = gn_compress_triangles(at, plain, block->data, block->count);
+        packed = gn_reorder->compress_triangles(at, plain, block->data, block->count);
     else if (block->kind != GN_BLOCK_BYTES && block->stride % 4 == 0 &&
              block->stride <= GN_STREAM_STRIDE_MAX)
-        packed = gn_compress_vertices(at, plain, block->data, block->count, block->stride);
+        packed = gn_reorder->compress_vertices(at, plain, block->data, block->count, block->stride);
     if (packed > 0 && packed < plain) return packed;
     if (block->kind == GN_BLOCK_TRIANGLES)
         put_triangles(at, block->data, block->count, block->stride);

@@ -119,10 +119,10 @@ static bool read_corners(struct primitive *p, int64_t mode) {
 
 static void move_vertices(struct primitive *p, size_t count) {
     for (size_t i = 0; i < p->stream_count; i++)
-        gn_reorder_vertices(&p->bytes[i], p->vertex_count, p->remap);
+        gn_reorder->vertices(&p->bytes[i], p->vertex_count, p->remap);
     const struct gn_stream_bytes positions = {(uint8_t *)p->positions, 3 * sizeof(float)};
-    gn_reorder_vertices(&positions, p->vertex_count, p->remap);
-    gn_reorder_corners(p->corners, p->corner_count, p->remap);
+    gn_reorder->vertices(&positions, p->vertex_count, p->remap);
+    gn_reorder->corners(p->corners, p->corner_count, p->remap);
     p->vertex_count = count;
 }
 
@@ -148,22 +148,22 @@ static void simplify(struct primitive *p, bool locks_border) {
     const size_t triangles = p->corner_count / 3;
     if (share >= 1 || triangles < SIMPLIFIED_TRIANGLES) return;
     float error = 0;
-    p->corner_count = gn_reorder_simplify(p->corners, p->corner_count, p->positions,
-                                          p->vertex_count, 3 * (size_t)((double)triangles * share),
-                                          SIMPLIFY_ERROR, locks_border, &error);
+    p->corner_count = gn_reorder->simplify(p->corners, p->corner_count, p->positions,
+                                           p->vertex_count, 3 * (size_t)((double)triangles * share),
+                                           SIMPLIFY_ERROR, locks_border, &error);
     if ((double)error > p->b->report->error) p->b->report->error = (double)error;
 }
 
 static void reorder(struct primitive *p, bool locks_border) {
     uint32_t *work = p->remap + p->vertex_count;
-    const size_t merged = gn_reorder_merge(p->bytes, p->stream_count, p->corners, p->corner_count,
-                                           p->vertex_count, p->remap, work);
+    const size_t merged = gn_reorder->merge(p->bytes, p->stream_count, p->corners, p->corner_count,
+                                            p->vertex_count, p->remap, work);
     move_vertices(p, merged);
     p->corner_count = drop_flat(p->corners, p->corner_count);
     simplify(p, locks_border);
     if (!keeps_order(p))
-        gn_reorder_triangles(p->corners, p->corner_count, p->positions, p->vertex_count);
-    const size_t used = gn_reorder_fetch(p->remap, p->corners, p->corner_count, p->vertex_count);
+        gn_reorder->triangles(p->corners, p->corner_count, p->positions, p->vertex_count);
+    const size_t used = gn_reorder->fetch(p->remap, p->corners, p->corner_count, p->vertex_count);
     move_vertices(p, used);
 }
 

@@ -6,11 +6,9 @@
 enum { STREAMS_AT_ONCE = 16 };   /* of meshopt_generateVertexRemapMulti */
 #define OVERDRAW_THRESHOLD 1.05f /* how much longer the cache's work may become */
 
-bool gn_reorder_is_built(void) { return true; }
-
-size_t gn_reorder_merge(const struct gn_stream_bytes *streams, size_t stream_count,
-                        const uint32_t *corners, size_t corner_count, size_t vertex_count,
-                        uint32_t *remap, uint32_t *work) {
+static size_t merge_vertices(const struct gn_stream_bytes *streams, size_t stream_count,
+                             const uint32_t *corners, size_t corner_count, size_t vertex_count,
+                             uint32_t *remap, uint32_t *work) {
     size_t unique = 0;
     for (size_t done = 0; done < stream_count;) {
         struct meshopt_Stream some[STREAMS_AT_ONCE];
@@ -28,42 +26,53 @@ size_t gn_reorder_merge(const struct gn_stream_bytes *streams, size_t stream_cou
     return unique;
 }
 
-void gn_reorder_vertices(const struct gn_stream_bytes *stream, size_t vertex_count,
+static void put_vertices(const struct gn_stream_bytes *stream, size_t vertex_count,
                          const uint32_t *remap) {
     meshopt_remapVertexBuffer(stream->data, stream->data, vertex_count, stream->stride, remap);
 }
 
-void gn_reorder_corners(uint32_t *corners, size_t count, const uint32_t *remap) {
+static void put_corners(uint32_t *corners, size_t count, const uint32_t *remap) {
     meshopt_remapIndexBuffer(corners, corners, count, remap);
 }
 
-size_t gn_reorder_simplify(uint32_t *corners, size_t count, const float *positions,
-                           size_t vertex_count, size_t wanted, float most_error, bool locks_border,
-                           float *error) {
+static size_t simplify(uint32_t *corners, size_t count, const float *positions, size_t vertex_count,
+                       size_t wanted, float most_error, bool locks_border, float *error) {
     return meshopt_simplify(corners, corners, count, positions, vertex_count, 3 * sizeof(float),
                             wanted, most_error, locks_border ? meshopt_SimplifyLockBorder : 0,
                             error);
 }
 
-void gn_reorder_triangles(uint32_t *corners, size_t count, const float *positions,
-                          size_t vertex_count) {
+static void order_triangles(uint32_t *corners, size_t count, const float *positions,
+                            size_t vertex_count) {
     meshopt_optimizeVertexCache(corners, corners, count, vertex_count);
     meshopt_optimizeOverdraw(corners, corners, count, positions, vertex_count, 3 * sizeof(float),
                              OVERDRAW_THRESHOLD);
 }
 
-size_t gn_reorder_fetch(uint32_t *remap, const uint32_t *corners, size_t count,
-                        size_t vertex_count) {
+static size_t order_vertices(uint32_t *remap, const uint32_t *corners, size_t count,
+                             size_t vertex_count) {
     return meshopt_optimizeVertexFetchRemap(remap, corners, count, vertex_count);
 }
 
-size_t gn_compress_vertices(uint8_t *out, size_t room, const void *vertices, size_t count,
-                            size_t stride) {
+static size_t compress_vertices(uint8_t *out, size_t room, const void *vertices, size_t count,
+                                size_t stride) {
     meshopt_encodeVertexVersion(0);
     return meshopt_encodeVertexBuffer(out, room, vertices, count, stride);
 }
 
-size_t gn_compress_triangles(uint8_t *out, size_t room, const uint32_t *corners, size_t count) {
+static size_t compress_triangles(uint8_t *out, size_t room, const uint32_t *corners, size_t count) {
     meshopt_encodeIndexVersion(0);
     return meshopt_encodeIndexBuffer(out, room, corners, count);
 }
+
+static const struct gn_reorder by_meshoptimizer = {
+    .merge = merge_vertices,
+    .vertices = put_vertices,
+    .corners = put_corners,
+    .simplify = simplify,
+    .triangles = order_triangles,
+    .fetch = order_vertices,
+    .compress_vertices = compress_vertices,
+    .compress_triangles = compress_triangles,
+};
+const struct gn_reorder *const gn_reorder = &by_meshoptimizer;

@@ -14,12 +14,9 @@ bool gn_gl_atlas_ensure(struct gn_gl *gl, const struct gn_caption_atlas *atlas,
     if (gn_gl_atlas_holds(gl, atlas)) return true;
     if (!a->texture || a->width_px != atlas->width_px || a->height_px != atlas->height_px) {
         gn_gl_atlas_finish(gl);
-        a->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
+        a->texture = gn_gl_texture_make(gl, 1, GL_R8, atlas->width_px, atlas->height_px);
         a->width_px = atlas->width_px;
         a->height_px = atlas->height_px;
-        gn_gl_work_on_texture(gl, a->texture);
-        GL(gl, TexStorage2D)
-        (GL_TEXTURE_2D, 1, GL_R8, (GLsizei)atlas->width_px, (GLsizei)atlas->height_px);
     }
     gn_gl_work_on_texture(gl, a->texture);
     GL(gl, TexSubImage2D)

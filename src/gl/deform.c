@@ -4,11 +4,8 @@
 #include "gl/private.h"
 
 static GLuint make_texels(struct gn_gl *gl, uint32_t width, uint32_t height) {
-    const GLuint name = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_work_on_texture(gl, name);
-    GL(gl, TexStorage2D)(GL_TEXTURE_2D, 1, GL_RGBA32F, (GLsizei)width, (GLsizei)height);
     gl->scene.texture_bytes += (uint64_t)width * height * sizeof(vec4);
-    return name;
+    return gn_gl_texture_make(gl, 1, GL_RGBA32F, width, height);
 }
 
 /* Texels first .. first + count, row after row. */

@@ -9,11 +9,7 @@ bool gn_gl_environment_holds(const struct gn_gl *gl,
 static void make_cube(struct gn_gl *gl) {
     struct gn_gl_environment *e = &gl->environment;
     e->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    e->sampler = gn_gl_object_create(gl, GN_GL_SAMPLER);
-    GL(gl, SamplerParameteri)(e->sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    GL(gl, SamplerParameteri)(e->sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    GL(gl, SamplerParameteri)(e->sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    GL(gl, SamplerParameteri)(e->sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    e->sampler = gn_gl_sampler_make(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     gn_gl_work_on_cube(gl, e->texture);
     GL(gl, TexStorage2D)
     (GL_TEXTURE_CUBE_MAP, GN_ENVIRONMENT_LEVELS, GL_R11F_G11F_B10F, GN_ENVIRONMENT_PX,

@@ -1,11 +1,6 @@
 /* Cross-fades and split screens: a finished picture is kept and laid over later ones. */
 #include "gl/private.h"
 
-static const char fade_vertex[] = "#version 300 es\n"
-                                  "void main() {\n"
-                                  "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, "
-                                  "gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-                                  "}\n";
 /* Premultiplied: the kept picture times its share. */
 static const char fade_fragment[] = "#version 300 es\n"
                                     "precision mediump float;\n"
@@ -48,18 +43,14 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     k->width_px = o->width_px;
     k->height_px = o->height_px;
     k->srgb = is_srgb(o);
-    k->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_work_on_texture(gl, k->texture);
-    GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, 1, k->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, (GLsizei)k->width_px,
-     (GLsizei)k->height_px);
-    k->framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
-    gn_gl_bind_framebuffer(gl, k->framebuffer);
+    k->texture =
+        gn_gl_texture_make(gl, 1, k->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, k->width_px, k->height_px);
+    k->framebuffer = gn_gl_framebuffer_make(gl);
     GL(gl, FramebufferTexture2D)
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, k->texture, 0);
     if (!gn_gl_framebuffer_check(gl, "kept picture", err)) return false;
     if (!k->program) {
-        k->program = gn_gl_program_link(gl, fade_vertex, fade_fragment, err);
+        k->program = gn_gl_program_link(gl, gn_gl_whole_vertex, fade_fragment, err);
         if (!k->program) return false;
         gn_gl_use_program(gl, k->program);
         const GLint u_kept = GL(gl, GetUniformLocation)(k->program, "u_kept");
@@ -88,13 +79,7 @@ void gn_gl_lay_over(struct gn_gl *gl, float share) {
     const struct gn_gl_output *o = gl->targets.output;
     if (!fits(k, o) || !k->program) return;
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
-    gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, (GLsizei)o->width_px, (GLsizei)o->height_px});
-    gn_gl_set_scissor(gl, NULL);
-    gn_gl_set_color_write(gl, true);
-    gn_gl_set_depth(gl, false, false);
-    gn_gl_set_blend(gl, GN_BLEND_ALPHA);
-    gn_gl_set_cull(gl, GN_CULL_NONE, false);
-    gn_gl_set_stencil(gl, &(struct gn_stencil){0});
+    gn_gl_set_whole(gl, o->width_px, o->height_px, GN_BLEND_ALPHA);
     gn_gl_use_program(gl, k->program);
     gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, k->texture,
                        gl->targets.map_samplers[GN_GL_MAP_NEAREST]);

@@ -11,11 +11,6 @@
 
 enum { SIDE = 4, OUTPUTS_MAX = 4 /* at once: ES 3.0 promises as many */ };
 
-static const char vertex[] = "#version 300 es\n"
-                             "void main() {\n"
-                             "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == "
-                             "2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-                             "}\n";
 static const char fragment_head[] = "#version 300 es\n"
                                     "precision highp float;\n"
                                     "precision highp int;\n"
@@ -162,7 +157,7 @@ static void make_proof_program(struct gn_gl *gl, struct proof *proof) {
     for (int i = 0; i < ROW_COUNT; i++)
         if (proof->mask >> i & 1) gn_gl_text_add(&text, "    o_%d = %s;\n", i, rows[i].value);
     gn_gl_text_add(&text, "}\n");
-    proof->program = gn_gl_program_link(gl, vertex, text.data, NULL);
+    proof->program = gn_gl_program_link(gl, gn_gl_whole_vertex, text.data, NULL);
     gn_gl_text_finish(&text);
 }
 
@@ -174,12 +169,12 @@ static void make_depth(struct gn_gl *gl, struct proof *proof) {
     gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, proof->depth,
                        gl->targets.map_samplers[GN_GL_MAP_COMPARE]);
     GL(gl, TexStorage2D)(GL_TEXTURE_2D, 1, GL_DEPTH_COMPONENT24, SIDE, SIDE);
-    proof->depth_framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
-    gn_gl_bind_framebuffer(gl, proof->depth_framebuffer);
+    proof->depth_framebuffer = gn_gl_framebuffer_make(gl);
     GL(gl, FramebufferTexture2D)
     (GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, proof->depth, 0);
     GL(gl, DrawBuffers)(1, &none);
     GL(gl, ReadBuffer)(GL_NONE);
+    gn_gl_set_depth(gl, false, true);
     GL(gl, ClearBufferfv)(GL_DEPTH, 0, &half);
 }
 
@@ -188,18 +183,11 @@ static uint32_t prove_at_once(struct gn_gl *gl, uint32_t mask) {
     struct proof proof = {.mask = mask};
     make_proof_program(gl, &proof);
     if (!proof.program) return 0;
-    gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, SIDE, SIDE});
-    gn_gl_set_scissor(gl, NULL);
-    gn_gl_set_depth(gl, false, true);
-    gn_gl_set_blend(gl, GN_BLEND_OFF);
-    gn_gl_set_cull(gl, GN_CULL_NONE, false);
-    gn_gl_set_color_write(gl, true);
-    gn_gl_set_stencil(gl, &(struct gn_stencil){0});
+    gn_gl_set_whole(gl, SIDE, SIDE, GN_BLEND_OFF);
     if (mask & rows_of(1u << GN_CAP_DEPTH_COMPARE)) make_depth(gl, &proof);
     GLenum buffers[OUTPUTS_MAX];
     GLsizei count = 0;
-    proof.framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
-    gn_gl_bind_framebuffer(gl, proof.framebuffer);
+    proof.framebuffer = gn_gl_framebuffer_make(gl);
     for (int i = 0; i < ROW_COUNT; i++) {
         if (!(mask >> i & 1)) continue;
         buffers[count] = GL_COLOR_ATTACHMENT0 + (GLenum)count;
@@ -234,8 +222,7 @@ static bool prove_samples(struct gn_gl *gl) {
     static const float color[4] = {1, 0, 1, 0};
     GLuint framebuffers[2], colors[2];
     for (int i = 0; i < 2; i++) {
-        framebuffers[i] = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
-        gn_gl_bind_framebuffer(gl, framebuffers[i]);
+        framebuffers[i] = gn_gl_framebuffer_make(gl);
         colors[i] = attach_new(gl, GL_COLOR_ATTACHMENT0, GL_RGBA8, i == 0 ? 4 : 0);
     }
     bool right = false;
@@ -266,8 +253,7 @@ static bool prove_samples(struct gn_gl *gl) {
 uint32_t gn_gl_probe_claims(struct gn_gl *gl) {
     uint32_t mask = 0;
     for (int i = 0; i < ROW_COUNT; i++) {
-        GLuint framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
-        gn_gl_bind_framebuffer(gl, framebuffer);
+        GLuint framebuffer = gn_gl_framebuffer_make(gl);
         GLuint color = attach_new(gl, GL_COLOR_ATTACHMENT0, rows[i].format, 0);
         if (is_complete(gl)) mask |= 1u << i;
         gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &framebuffer);

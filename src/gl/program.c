@@ -8,6 +8,12 @@
 #include "core/hash.h"
 #include "gl/private.h"
 
+const char gn_gl_whole_vertex[] = "#version 300 es\n"
+                                  "void main() {\n"
+                                  "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, "
+                                  "gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
+                                  "}\n";
+
 struct sources { /* of one program, and the stage that failed */
     struct gn_gl_text stage[2];
     int failed;    /* enum gn_gl_shader; 2: linking */

@@ -34,6 +34,8 @@ bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, st
 /* Making it, and the first draws with it, allocated so much. */
 void gn_gl_program_took(struct gn_gl *gl, struct gn_gl_program *program, uint64_t bytes);
 void gn_gl_programs_finish(struct gn_gl *gl);
+/* A vertex shader: one triangle over the whole target, of three vertices without attributes. */
+extern const char gn_gl_whole_vertex[];
 /* Compiles and links two sources; 0 and the driver's first line on failure. */
 GLuint gn_gl_program_link(struct gn_gl *gl, const char *vertex, const char *fragment,
                           struct gn_err *err);

@@ -117,11 +117,6 @@ void gn_gl_wait(struct gn_gl *gl) {
 /* ---- maps ---- */
 
 /* GLES cannot read depth: a triangle copies it, as it does every other encoding of one number. */
-static const char copy_vertex[] = "#version 300 es\n"
-                                  "void main() {\n"
-                                  "    gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, "
-                                  "gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0);\n"
-                                  "}\n";
 static const char copy_fragment[] =
     "#version 300 es\n"
     "precision highp float;\n"
@@ -134,14 +129,13 @@ static const char copy_fragment[] =
 
 static bool read_by_copy(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t *rgba,
                          struct gn_err *err) {
-    GLuint program = gn_gl_program_link(gl, copy_vertex, copy_fragment, err);
+    GLuint program = gn_gl_program_link(gl, gn_gl_whole_vertex, copy_fragment, err);
     if (!program) return false;
-    GLuint framebuffer = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
+    GLuint framebuffer = gn_gl_framebuffer_make(gl);
     GLuint color = gn_gl_object_create(gl, GN_GL_RENDERBUFFER);
     GL(gl, BindRenderbuffer)(GL_RENDERBUFFER, color);
     GL(gl, RenderbufferStorage)
     (GL_RENDERBUFFER, GL_RGBA32UI, (GLsizei)map->width_px, (GLsizei)map->height_px);
-    gn_gl_bind_framebuffer(gl, framebuffer);
     GL(gl, FramebufferRenderbuffer)
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
     bool ok = gn_gl_framebuffer_check(gl, "copy of a shadow map", err);
@@ -153,14 +147,7 @@ static bool read_by_copy(struct gn_gl *gl, const struct gn_gl_map *map, uint32_t
         GL(gl, Uniform1i)(u_map, GN_GL_UNIT_WORK);
         gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, map->texture,
                            gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
-        gn_gl_set_viewport(
-            gl, (struct gn_gl_rect){0, 0, (GLsizei)map->width_px, (GLsizei)map->height_px});
-        gn_gl_set_scissor(gl, NULL);
-        gn_gl_set_depth(gl, false, false);
-        gn_gl_set_blend(gl, GN_BLEND_OFF);
-        gn_gl_set_cull(gl, GN_CULL_NONE, false);
-        gn_gl_set_color_write(gl, true);
-        gn_gl_set_stencil(gl, &(struct gn_stencil){0});
+        gn_gl_set_whole(gl, map->width_px, map->height_px, GN_BLEND_OFF);
         GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
         gn_gl_object_destroy(gl, GN_GL_VERTEX_ARRAY, &array);
         read_pixels(gl, map->width_px, map->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, rgba);

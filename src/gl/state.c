@@ -22,11 +22,16 @@ void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name) {
     GL(gl, BindBuffer)(GL_ARRAY_BUFFER, name);
 }
 
+static void activate_unit(struct gn_gl *gl, GLuint unit) {
+    if (gl->state.unit == unit) return;
+    gl->state.unit = unit;
+    GL(gl, ActiveTexture)(GL_TEXTURE0 + unit);
+}
+
 static void bind_to(struct gn_gl *gl, GLenum target, GLuint unit, GLuint texture, GLuint sampler) {
     struct gn_gl_state *s = &gl->state;
     if (s->textures[unit] != texture) {
-        if (s->unit != unit) GL(gl, ActiveTexture)(GL_TEXTURE0 + unit);
-        s->unit = unit;
+        activate_unit(gl, unit);
         s->textures[unit] = texture;
         GL(gl, BindTexture)(target, texture);
     }
@@ -41,12 +46,6 @@ void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sa
 
 void gn_gl_bind_cube(struct gn_gl *gl, GLuint texture, GLuint sampler) {
     bind_to(gl, GL_TEXTURE_CUBE_MAP, GN_GL_UNIT_ENVIRONMENT, texture, sampler);
-}
-
-static void activate_unit(struct gn_gl *gl, GLuint unit) {
-    if (gl->state.unit == unit) return;
-    gl->state.unit = unit;
-    GL(gl, ActiveTexture)(GL_TEXTURE0 + unit);
 }
 
 void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture) {
@@ -158,6 +157,16 @@ void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]) {
     GL(gl, ClearColor)(rgba[0], rgba[1], rgba[2], rgba[3]);
 }
 
+void gn_gl_set_whole(struct gn_gl *gl, uint32_t width, uint32_t height, enum gn_blend blend) {
+    gn_gl_set_viewport(gl, (struct gn_gl_rect){0, 0, (GLsizei)width, (GLsizei)height});
+    gn_gl_set_scissor(gl, NULL);
+    gn_gl_set_depth(gl, false, false);
+    gn_gl_set_blend(gl, blend);
+    gn_gl_set_cull(gl, GN_CULL_NONE, false);
+    gn_gl_set_color_write(gl, true);
+    gn_gl_set_stencil(gl, &(struct gn_stencil){0});
+}
+
 /* Another gn_gl may have used the context; its bindings ended with its objects. */
 void gn_gl_state_init(struct gn_gl *gl) {
     static const GLenum framebuffer_srgb = 0x8DB9; /* desktop GL only: ES always encodes */
@@ -196,6 +205,29 @@ GLuint gn_gl_object_create(struct gn_gl *gl, enum gn_gl_object kind) {
     case GN_GL_VERTEX_ARRAY: GL(gl, GenVertexArrays)(1, &name); break;
     }
     return name;
+}
+
+GLuint gn_gl_framebuffer_make(struct gn_gl *gl) {
+    const GLuint name = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
+    gn_gl_bind_framebuffer(gl, name);
+    return name;
+}
+
+GLuint gn_gl_texture_make(struct gn_gl *gl, GLsizei levels, GLenum format, uint32_t width,
+                          uint32_t height) {
+    const GLuint name = gn_gl_object_create(gl, GN_GL_TEXTURE);
+    gn_gl_work_on_texture(gl, name);
+    GL(gl, TexStorage2D)(GL_TEXTURE_2D, levels, format, (GLsizei)width, (GLsizei)height);
+    return name;
+}
+
+GLuint gn_gl_sampler_make(struct gn_gl *gl, GLint minified, GLint magnified) {
+    const GLuint s = gn_gl_object_create(gl, GN_GL_SAMPLER);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MIN_FILTER, minified);
+    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, magnified);
+    return s;
 }
 
 void gn_gl_object_destroy(struct gn_gl *gl, enum gn_gl_object kind, GLuint *name) {

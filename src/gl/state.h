@@ -69,6 +69,8 @@ void gn_gl_set_color_write(struct gn_gl *gl, bool write); /* affects clears */
 void gn_gl_set_stencil(struct gn_gl *gl, const struct gn_stencil *stencil);
 void gn_gl_set_stencil_writes(struct gn_gl *gl, uint8_t bits); /* for clears */
 void gn_gl_set_clear_color(struct gn_gl *gl, const float rgba[4]);
+/* What one triangle over a whole target of that size is drawn with (gn_gl_whole_vertex). */
+void gn_gl_set_whole(struct gn_gl *gl, uint32_t width, uint32_t height, enum gn_blend blend);
 
 /* ---- objects: created here, so that they are counted ---- */
 
@@ -81,6 +83,12 @@ enum gn_gl_object {
     GN_GL_VERTEX_ARRAY,
 };
 GLuint gn_gl_object_create(struct gn_gl *gl, enum gn_gl_object kind);
+/* A framebuffer, bound; a texture of so many levels, on the unit of work; a sampler with these
+ * filters that clamps. */
+GLuint gn_gl_framebuffer_make(struct gn_gl *gl);
+GLuint gn_gl_texture_make(struct gn_gl *gl, GLsizei levels, GLenum format, uint32_t width,
+                          uint32_t height);
+GLuint gn_gl_sampler_make(struct gn_gl *gl, GLint minified, GLint magnified);
 /* Also clears *name and what the state cache knows of it; 0 is legal. */
 void gn_gl_object_destroy(struct gn_gl *gl, enum gn_gl_object kind, GLuint *name);
 

@@ -14,12 +14,6 @@ static GLuint make_renderbuffer(struct gn_gl *gl, GLenum format, GLsizei samples
     return name;
 }
 
-static GLuint make_framebuffer(struct gn_gl *gl) {
-    GLuint name = gn_gl_object_create(gl, GN_GL_FRAMEBUFFER);
-    gn_gl_bind_framebuffer(gl, name);
-    return name;
-}
-
 static void attach_renderbuffer(struct gn_gl *gl, GLenum where, GLuint renderbuffer) {
     GL(gl, FramebufferRenderbuffer)(GL_FRAMEBUFFER, where, GL_RENDERBUFFER, renderbuffer);
 }
@@ -70,10 +64,7 @@ static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color
         attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, *color);
         return;
     }
-    o->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_work_on_texture(gl, o->texture);
-    GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, 1, format, (GLsizei)o->width_px, (GLsizei)o->height_px);
+    o->texture = gn_gl_texture_make(gl, 1, format, o->width_px, o->height_px);
     GL(gl, FramebufferTexture2D)
     (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, o->texture, 0);
 }
@@ -92,7 +83,7 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
     if (o->window && !encoded && !o->msaa) return true; /* the display provides everything */
     o->depth = make_renderbuffer(gl, o->stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24,
                                  (GLsizei)o->msaa, o->width_px, o->height_px);
-    o->framebuffer = make_framebuffer(gl);
+    o->framebuffer = gn_gl_framebuffer_make(gl);
     attach_color(gl, o, &o->color, (GLsizei)o->msaa, encoded && !o->msaa);
     attach_renderbuffer(gl, o->stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
                         o->depth);
@@ -104,14 +95,14 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
 
     o->resolved = o->framebuffer;
     if (o->msaa) {
-        o->resolved = make_framebuffer(gl);
+        o->resolved = gn_gl_framebuffer_make(gl);
         attach_color(gl, o, &o->resolved_color, 0, encoded);
         if (!gn_gl_framebuffer_check(gl, "resolved output", err)) return false;
     }
     if (encoded && !o->window) {
         o->encoded_color =
             make_renderbuffer(gl, output_formats[o->finished].format, 0, o->width_px, o->height_px);
-        o->encoded = make_framebuffer(gl);
+        o->encoded = gn_gl_framebuffer_make(gl);
         attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->encoded_color);
         if (!gn_gl_framebuffer_check(gl, "encoded output", err)) return false;
     }
@@ -201,11 +192,8 @@ static bool make_map(struct gn_gl *gl, struct gn_gl_map *map, struct gn_err *err
     GLsizei levels = 1;
     while (map->mipmaps && side >> levels > 0) levels++;
     const GLenum format = map->moments ? moments_formats[map->moments] : map_formats[map->encoding];
-    map->texture = gn_gl_object_create(gl, GN_GL_TEXTURE);
-    gn_gl_work_on_texture(gl, map->texture);
-    GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, levels, format, (GLsizei)map->width_px, (GLsizei)map->height_px);
-    map->framebuffer = make_framebuffer(gl);
+    map->texture = gn_gl_texture_make(gl, levels, format, map->width_px, map->height_px);
+    map->framebuffer = gn_gl_framebuffer_make(gl);
     GL(gl, FramebufferTexture2D)
     (GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
      map->texture, 0);
@@ -392,28 +380,19 @@ uint64_t gn_gl_targets_bytes(const struct gn_gl *gl) {
     return bytes;
 }
 
-static GLuint make_sampler(struct gn_gl *gl, GLint minified, GLint magnified) {
-    const GLuint s = gn_gl_object_create(gl, GN_GL_SAMPLER);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MIN_FILTER, minified);
-    GL(gl, SamplerParameteri)(s, GL_TEXTURE_MAG_FILTER, magnified);
-    return s;
-}
-
 void gn_gl_targets_init(struct gn_gl *gl) {
     gn_gl_targets_choose(gl, 0);
     for (enum gn_gl_map_sampler kind = 0; kind < GN_GL_MAP_SAMPLER_COUNT; kind++) {
         const bool nearest = kind == GN_GL_MAP_COMPARE || kind == GN_GL_MAP_NEAREST;
         const GLint filter = nearest ? GL_NEAREST : GL_LINEAR;
-        const GLuint s = gl->targets.map_samplers[kind] = make_sampler(
+        const GLuint s = gl->targets.map_samplers[kind] = gn_gl_sampler_make(
             gl, kind == GN_GL_MAP_TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : filter, filter);
         if (kind < GN_GL_MAP_COMPARE) continue;
         GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         GL(gl, SamplerParameteri)(s, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
     for (int i = 0; i < GN_SHADOWS_MAX; i++)
-        gl->targets.mipmap_samplers[i] = make_sampler(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
+        gl->targets.mipmap_samplers[i] = gn_gl_sampler_make(gl, GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
 }
 
 GLuint gn_gl_mipmap_sampler(struct gn_gl *gl, uint32_t unit, float mipmap) {

@@ -288,7 +288,7 @@ static void keep_extent(struct gn_gltf *g, const struct hull *hull, struct gn_ex
     for (uint32_t i = 0; count == 0 && i < 8; i++) /* nothing can be seen */
         for (int k = 0; k < 3; k++) points[i][k] = i >> k & 1 ? box->max[k] : box->min[k];
     if (count == 0) count = 8;
-    extent->points = gn_gltf_alloc(g, g->memory.scene, count, sizeof *extent->points);
+    GN_NEW(g, g->memory.scene, extent->points, count);
     if (g->failed) return;
     memcpy(extent->points, points, count * sizeof *points);
     extent->count = count;
@@ -299,9 +299,8 @@ bool gn_scene_measure(struct gn_gltf *g, struct gn_pose *pose) {
     const struct gn_scene_animation *animation = &scene->animation;
     const int clip_count = (int)animation->clip_count;
     struct measure m = {.g = g, .scene = scene, .vertices_left = VERTICES};
-    m.shapes = gn_gltf_alloc(g, &g->memory.step, scene->geometry_count, sizeof *m.shapes);
-    scene->extents = gn_gltf_alloc(g, g->memory.scene, (uint64_t)(clip_count - GN_POSE_NONE),
-                                   sizeof *scene->extents);
+    GN_NEW(g, &g->memory.step, m.shapes, scene->geometry_count);
+    GN_NEW(g, g->memory.scene, scene->extents, (uint64_t)(clip_count - GN_POSE_NONE));
     spread_directions(&m.towards);
     uint64_t left = LOOKS;
     for (int clips = GN_POSE_NONE; clips < clip_count && !g->failed; clips++) {

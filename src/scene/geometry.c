@@ -8,7 +8,6 @@
 #include <string.h>
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
-#define NORMALS_REPAIRED "normals without length; those of the faces are used"
 enum { CLOSED_CORNERS = 2 }; /* tested for being closed, for each vertex of the limit */
 
 /* The square of a larger number overflows a float. */
@@ -174,30 +173,31 @@ static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
 
 /* ---- geometries ---- */
 
-/* The file's, of unit length; 0 where one has none. */
-static void normalize_normals(float *normals, size_t count, bool *lacking) {
+/* The file's, of unit length; 0 where one has none: true. */
+static bool normalize_normals(float *normals, size_t count) {
+    bool lacks = false;
     for (size_t i = 0; i < count; i++) {
         float *n = normals + 3 * i;
         const float length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         const bool right = length > 1e-12f && length < 1e18f;
-        *lacking |= !right;
+        lacks |= !right;
         for (int k = 0; k < 3; k++) n[k] = right ? n[k] / length : 0;
     }
+    return lacks;
 }
 
-/* A geometry with vertices of its own while it is made, in work memory. Each vertex is one of the
- * file's accessors: source. */
+/* A geometry with vertices of its own while it is made: its positions and normals are where they
+ * stay, behind those of the scene. Each vertex is one of the file's accessors: source. */
 struct own {
-    uint32_t *corners, *source;
+    uint32_t *corners, *source; /* source: in work memory */
     float *positions, *normals;
-    vec4 *tangents; /* or NULL */
     size_t corner_count, count;
 };
 
 /* Renumbers the vertices in the order in which corners use them. */
 static bool compact_vertices(struct gn_gltf *g, size_t vertex_count, struct own *own) {
     uint32_t *numbers = gn_gltf_alloc(g, &g->memory.step, vertex_count, sizeof *numbers);
-    own->source = gn_gltf_alloc(g, &g->memory.step, own->corner_count, sizeof *own->source);
+    GN_NEW(g, &g->memory.step, own->source, own->corner_count);
     if (g->failed) return false;
     for (size_t i = 0; i < own->corner_count; i++) {
         uint32_t *number = &numbers[own->corners[i]];
@@ -210,10 +210,17 @@ static bool compact_vertices(struct gn_gltf *g, size_t vertex_count, struct own 
     return true;
 }
 
+static void repair_normals(struct gn_gltf *g, const struct gn_at *at, const float *positions,
+                           float *normals, const uint32_t *corners, size_t corner_count) {
+    if (gn_normals_repair(positions, normals, corners, corner_count) > 0)
+        gn_gltf_warn(g, at, "normals without length; those of the faces are used");
+}
+
 /* Those of the file's vertices that the triangles use, with their normals, or with flat ones. */
 static bool make_own(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
                      struct own *own) {
     const struct gn_accessor *a = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION]);
+    const struct gn_accessor *n = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_NORMAL]);
     struct gather vertices = {.accessor = a, .count = a->count};
     size_t count = 0;
     uint32_t *raw = read_corners(g, at, shape, &count), *used = NULL;
@@ -225,37 +232,27 @@ static bool make_own(struct gn_gltf *g, const struct gn_at *at, const struct gn_
     if (!positions) return false;
     take_origin(origin_of(g, shape), positions, vertices.count);
     own->corner_count = unroll_triangles(g, at, shape, raw, positions, own->corners);
-    struct gather normals = {.accessor =
-                                 gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_NORMAL])};
-    if (normals.accessor
-            ? !compact_vertices(g, vertices.count, own)
-            : !gn_geometry_flat_normals(g, positions, own->corners, own->corner_count,
-                                        vertices.count, &own->source, &own->normals, &own->count))
+    if (n ? !compact_vertices(g, vertices.count, own)
+          : !gn_geometry_flat_normals(g, positions, own->corners, own->corner_count, vertices.count,
+                                      &own->source, own->normals, &own->count))
         return false;
-    own->positions = gn_gltf_alloc(g, &g->memory.step, own->count, 3 * sizeof *own->positions);
-    if (g->failed) return false;
     for (size_t i = 0; i < own->count; i++) {
         memcpy(own->positions + 3 * i, positions + 3 * (size_t)own->source[i],
                3 * sizeof *positions);
         if (used) own->source[i] = used[own->source[i]];
     }
-    if (!normals.accessor) return true;
-    bool lacking = false;
-    normals.source = own->source;
-    normals.count = own->count;
-    own->normals = read_floats(g, &normals, 3);
-    if (!own->normals) return false;
-    normalize_normals(own->normals, own->count, &lacking);
-    if (lacking &&
-        gn_normals_repair(own->positions, own->normals, own->corners, own->corner_count) > 0)
-        gn_gltf_warn(g, at, NORMALS_REPAIRED);
+    if (!n) return true;
+    const struct gather normals = {.accessor = n, .source = own->source, .count = own->count};
+    put_floats(&normals, 3, own->normals);
+    if (normalize_normals(own->normals, own->count))
+        repair_normals(g, at, own->positions, own->normals, own->corners, own->corner_count);
     return true;
 }
 
-/* Makes tangents, for which vertices may become several. Without them where memory_mb leaves too
- * little. */
-static bool add_tangents(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
-                         struct own *own) {
+/* Makes tangents, for which vertices may become several. NULL: without them, where memory_mb leaves
+ * too little, or the load failed. */
+static vec4 *add_tangents(struct gn_gltf *g, const struct gn_at *at, const struct gn_shape *shape,
+                          struct own *own) {
     const struct gn_texture_ref ref = gn_gltf_tangents_uv(g, shape->tangents);
     const struct gather from = {
         .accessor = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_UV0 + ref.uv_set]),
@@ -264,10 +261,10 @@ static bool add_tangents(struct gn_gltf *g, const struct gn_at *at, const struct
     if (gn_tangents_bytes(own->corner_count, own->count) > gn_gltf_room(g)) {
         gn_gltf_warn(g, at,
                      "no memory for tangents within memory_mb; shown without its normal map");
-        return true;
+        return NULL;
     }
     float *uv = read_floats(g, &from, 2);
-    if (!uv) return false;
+    if (!uv) return NULL;
     for (size_t i = 0; i < own->count; i++) {
         const float *m = ref.uv_from_uv, u = uv[2 * i], v = uv[2 * i + 1];
         uv[2 * i] = m[0] * u + m[2] * v;
@@ -278,41 +275,42 @@ static bool add_tangents(struct gn_gltf *g, const struct gn_at *at, const struct
     const struct gn_tangent_mesh mesh = {own->positions, own->normals,      uv,
                                          own->corners,   own->corner_count, own->count};
     struct gn_tangents made;
-    if (!gn_tangents_make(g, &mesh, &made)) return false;
-    float *positions = gn_gltf_alloc(g, &g->memory.step, made.count, 3 * sizeof *positions);
-    float *normals = gn_gltf_alloc(g, &g->memory.step, made.count, 3 * sizeof *normals);
-    if (g->failed) return false;
-    for (size_t i = 0; i < made.count; i++) {
-        memcpy(positions + 3 * i, own->positions + 3 * (size_t)made.source[i], 3 * sizeof(float));
-        memcpy(normals + 3 * i, own->normals + 3 * (size_t)made.source[i], 3 * sizeof(float));
-        made.source[i] = own->source[made.source[i]];
+    if (!gn_tangents_make(g, &mesh, &made)) return NULL;
+    assert(made.count <= own->corner_count);           /* as allocated */
+    for (size_t i = own->count; i < made.count; i++) { /* those that there were stay */
+        memcpy(own->positions + 3 * i, own->positions + 3 * (size_t)made.source[i],
+               3 * sizeof *own->positions);
+        memcpy(own->normals + 3 * i, own->normals + 3 * (size_t)made.source[i],
+               3 * sizeof *own->normals);
     }
-    *own = (struct own){own->corners,  made.source,       positions, normals,
-                        made.tangents, own->corner_count, made.count};
-    return true;
+    for (size_t i = 0; i < made.count; i++) made.source[i] = own->source[made.source[i]];
+    own->source = made.source;
+    own->count = made.count;
+    return made.tangents;
 }
 
 static bool fill_own_geometry(struct gn_gltf *g, const struct gn_at *at,
                               const struct gn_shape *shape, struct gn_geometry *geometry) {
     struct gn_scene_buffers *buffers = &g->scene->buffers;
     const size_t first = buffers->vertex_count;
-    struct own own = {.corners = buffers->indices + geometry->first_index};
+    struct own own = {.corners = buffers->indices + geometry->first_index,
+                      .positions = buffers->positions + 3 * first,
+                      .normals = buffers->normals + 3 * first};
     if (!make_own(g, at, shape, &own)) return false;
-    if (shape->tangents != GN_TANGENTS_NONE && !add_tangents(g, at, shape, &own)) return false;
-    assert(own.count <= shape->corner_count); /* as allocated */
+    const bool tangents = shape->tangents != GN_TANGENTS_NONE;
+    const vec4 *made = tangents ? add_tangents(g, at, shape, &own) : NULL;
+    if (g->failed) return false;
     geometry->first_vertex = (uint32_t)first;
     geometry->vertex_count = (uint32_t)own.count;
     geometry->index_count = (uint32_t)own.corner_count;
     for (size_t i = 0; i < own.corner_count; i++) own.corners[i] += geometry->first_vertex;
-    memcpy(buffers->positions + 3 * first, own.positions, 3 * own.count * sizeof *own.positions);
-    memcpy(buffers->normals + 3 * first, own.normals, 3 * own.count * sizeof *own.normals);
     buffers->vertex_count += geometry->vertex_count;
     if (!put_other_attributes(
             g, shape->attribute,
             (struct gather){.source = own.source, .first = first, .count = own.count}))
         return false;
-    if (own.tangents) {
-        memcpy(buffers->tangents + 4 * first, own.tangents, own.count * sizeof *own.tangents);
+    if (made) {
+        memcpy(buffers->tangents + 4 * first, made, own.count * sizeof *made);
         gn_geometry_repair_tangents(g->scene, first, own.count);
         geometry->attributes |= 1u << GN_ATTRIBUTE_TANGENT;
     }
@@ -333,8 +331,8 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
         take_origin(origin_of(g, shape), buffers->positions + 3 * gather.first, gather.count);
         gather.accessor = gn_gltf_accessor(g, vertices->attribute[GN_ATTRIBUTE_NORMAL]);
         put_floats(&gather, 3, buffers->normals + 3 * gather.first);
-        normalize_normals(buffers->normals + 3 * gather.first, gather.count,
-                          &vertices->lacks_normals);
+        vertices->lacks_normals =
+            normalize_normals(buffers->normals + 3 * gather.first, gather.count);
         if (!put_other_attributes(g, vertices->attribute, gather)) return false;
         if (vertices->attribute[GN_ATTRIBUTE_TANGENT] >= 0)
             gn_geometry_repair_tangents(g->scene, gather.first, gather.count);
@@ -349,9 +347,8 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
     geometry->first_vertex = vertices->first;
     geometry->vertex_count = vertices->count;
     geometry->index_count = (uint32_t)count;
-    if (vertices->lacks_normals &&
-        gn_normals_repair(buffers->positions, buffers->normals, corners, count) > 0)
-        gn_gltf_warn(g, at, NORMALS_REPAIRED);
+    if (vertices->lacks_normals)
+        repair_normals(g, at, buffers->positions, buffers->normals, corners, count);
     return !shape->targets || gn_morph_build(g, at, shape, NULL, geometry);
 }
 
@@ -378,12 +375,9 @@ static bool allocate_vertices(struct gn_gltf *g) {
     if (corners + 6 * added > UINT32_MAX)
         return gn_gltf_fail(g, &meshes, "%" PRIu64 " indices are more than can be drawn", corners);
     vertices += 4 * added;
-    scene->geometries =
-        gn_gltf_alloc(g, g->memory.scene, scene->geometry_count + added, sizeof *scene->geometries);
-    scene->buffers.indices =
-        gn_gltf_alloc(g, g->memory.scene, corners + 6 * added, sizeof *scene->buffers.indices);
-    scene->buffers.spreads =
-        gn_gltf_alloc(g, g->memory.scene, vertices, sizeof *scene->buffers.spreads);
+    GN_NEW(g, g->memory.scene, scene->geometries, scene->geometry_count + added);
+    GN_NEW(g, g->memory.scene, scene->buffers.indices, corners + 6 * added);
+    GN_NEW(g, g->memory.scene, scene->buffers.spreads, vertices);
     for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
         if (any[i])
             scene->buffers.attributes[i] =

@@ -33,11 +33,10 @@ static void face_normal(const float *a, const float *b, const float *c, float ou
  * with another normal. */
 bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
                               size_t corner_count, size_t vertex_count, uint32_t **source,
-                              float **normals, size_t *made) {
+                              float *normals, size_t *made) {
     uint32_t *latest =
         gn_gltf_alloc(g, &g->memory.step, vertex_count, sizeof *latest); /* made + 1 */
     *source = gn_gltf_alloc(g, &g->memory.step, corner_count, sizeof **source);
-    *normals = gn_gltf_alloc(g, &g->memory.step, corner_count, 3 * sizeof **normals);
     if (g->failed) return false;
     size_t count = 0;
     float normal[3] = {0, 1, 0};
@@ -47,11 +46,11 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
             face_normal(positions + 3 * (size_t)t[0], positions + 3 * (size_t)t[1],
                         positions + 3 * (size_t)t[2], normal);
         uint32_t vertex = corners[i], known = latest[vertex];
-        const float *other = *normals + 3 * (size_t)(known ? known - 1 : 0);
+        const float *other = normals + 3 * (size_t)(known ? known - 1 : 0);
         bool same =
             known && normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2] > 1 - 1e-6f;
         if (!same) {
-            memcpy(*normals + 3 * count, normal, sizeof normal);
+            memcpy(normals + 3 * count, normal, sizeof normal);
             (*source)[count] = vertex;
             latest[vertex] = (uint32_t)++count;
         }

@@ -99,9 +99,9 @@ bool gn_morph_build(struct gn_gltf *g, const struct gn_at *primitive, const stru
     if (n == 0 || !has_room(g, primitive, &made, geometry)) return true;
     made.first_texel = (uint32_t)g->scene->deformation.delta_texels;
     const uint64_t texels = (uint64_t)made.count * made.parts * n;
-    made.deltas = gn_gltf_alloc(g, g->memory.scene, texels, sizeof *made.deltas);
-    made.boxes = gn_gltf_alloc(g, g->memory.scene, made.count, sizeof *made.boxes);
-    geometry->targets = gn_gltf_alloc(g, g->memory.scene, 1, sizeof *geometry->targets);
+    GN_NEW(g, g->memory.scene, made.deltas, texels);
+    GN_NEW(g, g->memory.scene, made.boxes, made.count);
+    GN_NEW(g, g->memory.scene, geometry->targets, 1);
     if (g->failed || !gn_gltf_count(g, texels * sizeof *made.deltas)) return false; /* the GPU's */
     g->scene->deformation.delta_texels += texels;
     for (uint32_t t = 0; t < made.count; t++) {

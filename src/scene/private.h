@@ -202,6 +202,9 @@ void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format,
 
 /* Zeroed memory within memory_mb over all arenas; NULL fails the load. */
 void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, size_t size);
+/* The same for a pointer: so many of what it points to. */
+#define GN_NEW(g, arena, pointer, count)                                                           \
+    ((pointer) = gn_gltf_alloc(g, arena, count, sizeof *(pointer)))
 /* Counts memory that lies elsewhere, as of the GPU, within memory_mb; false fails the load. */
 bool gn_gltf_count(struct gn_gltf *g, uint64_t bytes);
 char *gn_gltf_strdup(struct gn_gltf *g, const char *text); /* "" for NULL; into the scene */
@@ -282,11 +285,11 @@ void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 
 /* geometry_finish.c: steps of making a geometry that need only its triangles. */
 /* Flat normals for triangles that have none. positions: 3 x vertex_count. corners: corner_count
- * indices into them, which become indices into the *made vertices; of these *source[i] is the
- * position and 3 floats of *normals the normal. Both are in work memory. */
+ * indices into them, which become indices into the *made vertices, at most corner_count; of these
+ * *source[i], in work memory, is the position, and 3 floats of normals are the normal. */
 bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_t *corners,
                               size_t corner_count, size_t vertex_count, uint32_t **source,
-                              float **normals, size_t *made);
+                              float *normals, size_t *made);
 /* Replaces normals of length 0 by the normal of a face; returns their number. */
 size_t gn_normals_repair(const float *positions, float *normals, const uint32_t *corners,
                          size_t corner_count);
@@ -394,9 +397,6 @@ bool gn_gltf_find_property(struct gn_gltf *g, const char *pointer, struct gn_pro
                            uint32_t *index);
 /* Where the numbers of that thing go, if a clip names it, else NULL; *record: for the thing. */
 void *gn_gltf_record(struct gn_gltf *g, enum gn_thing thing, size_t index, uint32_t *record);
-
-/* gltf/instance.c: EXT_mesh_gpu_instancing of all placed nodes. */
-bool gn_gltf_instances(struct gn_gltf *g);
 
 /* gltf/variant.c */
 /* A material of a primitive, where other variants have others. */

@@ -89,7 +89,7 @@ bool gn_skin_measure(struct gn_gltf *g, struct gn_geometry *geometry) {
         }
     }
     for (uint32_t j = 0; j < count; j++) used += boxes[j].min[0] <= boxes[j].max[0];
-    geometry->joint_boxes = gn_gltf_alloc(g, g->memory.scene, used, sizeof *geometry->joint_boxes);
+    GN_NEW(g, g->memory.scene, geometry->joint_boxes, used);
     if (g->failed) return false;
     for (uint32_t j = 0; j < count; j++)
         if (boxes[j].min[0] <= boxes[j].max[0])

@@ -224,7 +224,7 @@ static void add_corner(struct work *w, uint32_t corner) {
 
 static bool make_groups(struct gn_gltf *g, struct work *w) {
     const size_t corners = w->mesh->corner_count;
-    w->groups = gn_gltf_alloc(g, &g->memory.step, corners, sizeof *w->groups);
+    GN_NEW(g, &g->memory.step, w->groups, corners);
     if (g->failed) return false;
     for (uint32_t i = 0; i < corners; i++) {
         const struct face *face = &w->faces[i / 3];
@@ -269,8 +269,8 @@ static bool split_vertices(struct gn_gltf *g, const struct work *w, struct gn_ta
     uint32_t *numbers = gn_gltf_alloc(g, &g->memory.step, mesh->corner_count, sizeof *numbers);
     bool *taken = gn_gltf_alloc(g, &g->memory.step, mesh->vertex_count, sizeof *taken);
     copies = gn_gltf_alloc(g, &g->memory.step, mesh->corner_count, sizeof *copies);
-    out->source = gn_gltf_alloc(g, &g->memory.step, most, sizeof *out->source);
-    out->tangents = gn_gltf_alloc(g, &g->memory.step, most, sizeof *out->tangents);
+    GN_NEW(g, &g->memory.step, out->source, most);
+    GN_NEW(g, &g->memory.step, out->tangents, most);
     const struct gn_table table = make_table(g, mesh->corner_count, copies, sizeof *copies);
     if (g->failed) return false;
     out->count = mesh->vertex_count;
@@ -308,7 +308,7 @@ size_t gn_tangents_bytes(size_t corner_count, size_t vertex_count) {
 bool gn_tangents_make(struct gn_gltf *g, const struct gn_tangent_mesh *mesh,
                       struct gn_tangents *out) {
     struct work w = {.mesh = mesh, .welded = weld_corners(g, mesh)};
-    w.faces = gn_gltf_alloc(g, &g->memory.step, mesh->corner_count / 3, sizeof *w.faces);
+    GN_NEW(g, &g->memory.step, w.faces, mesh->corner_count / 3);
     if (!w.welded || !w.faces) return false;
     for (size_t i = 0; i < mesh->corner_count / 3; i++)
         measure_face(mesh, w.welded + 3 * i, &w.faces[i]);

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/delta_e.h"
 #include "image/picture.h"
+#include "modelviewer/delta_e.h"
 
 enum { EDGE = 2, BINS = 10000, GAP = 4, PANELS = 4 };
 static const double MEAN_MOST = 4, BRIGHTNESS_MOST = .15, WHITE = 20, BIN = .01;

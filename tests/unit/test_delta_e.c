@@ -1,5 +1,5 @@
 /* CIEDE2000 against the pairs that its implementation notes publish. */
-#include "image/delta_e.h"
+#include "modelviewer/delta_e.h"
 
 #include <math.h>
 

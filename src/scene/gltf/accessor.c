@@ -176,10 +176,8 @@ const struct gn_accessor *gn_gltf_accessor(struct gn_gltf *g, int32_t index) {
 bool gn_gltf_list_accessors(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "accessors");
     g->file.accessor_count = gn_at_size(&array);
-    g->file.accessors =
-        gn_gltf_alloc(g, &g->memory.load, g->file.accessor_count, sizeof *g->file.accessors);
-    g->file.key_times =
-        gn_gltf_alloc(g, &g->memory.load, g->file.accessor_count, sizeof *g->file.key_times);
+    GN_NEW(g, &g->memory.load, g->file.accessors, g->file.accessor_count);
+    GN_NEW(g, &g->memory.load, g->file.key_times, g->file.accessor_count);
     return !g->failed;
 }
 

@@ -250,9 +250,8 @@ bool gn_gltf_animations(struct gn_gltf *g) {
         struct gn_at at = gn_at_item(g, &array, i), list = gn_at_array(g, &at, "channels");
         channel_count += gn_at_size(&list);
     }
-    animation->clips = gn_gltf_alloc(g, g->memory.scene, count, sizeof *animation->clips);
-    animation->channels =
-        gn_gltf_alloc(g, g->memory.scene, channel_count, sizeof *animation->channels);
+    GN_NEW(g, g->memory.scene, animation->clips, count);
+    GN_NEW(g, g->memory.scene, animation->channels, channel_count);
     struct claims claims = {gn_gltf_alloc(g, &g->memory.load, g->scene->node_count, 1),
                             gn_gltf_alloc(g, &g->memory.load, animation->record_floats, 1)};
     for (size_t i = 0; i < count && !g->failed; i++) {

@@ -44,7 +44,7 @@ static bool read_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view 
 bool gn_gltf_buffers(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), buffers = gn_at_array(g, &root, "buffers");
     size_t count = gn_at_size(&buffers);
-    g->file.buffers = gn_gltf_alloc(g, &g->memory.load, count, sizeof *g->file.buffers);
+    GN_NEW(g, &g->memory.load, g->file.buffers, count);
     if (!g->file.buffers) return false;
     g->file.buffer_count = count;
     for (size_t i = 0; i < count; i++) {
@@ -53,7 +53,7 @@ bool gn_gltf_buffers(struct gn_gltf *g) {
     }
     struct gn_at views = gn_at_array(g, &root, "bufferViews");
     g->file.view_count = gn_at_size(&views);
-    g->file.views = gn_gltf_alloc(g, &g->memory.load, g->file.view_count, sizeof *g->file.views);
+    GN_NEW(g, &g->memory.load, g->file.views, g->file.view_count);
     for (size_t i = 0; i < g->file.view_count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &views, i);
         if (!read_view(g, &at, &g->file.views[i])) return false;

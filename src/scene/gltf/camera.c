@@ -63,8 +63,7 @@ bool gn_gltf_cameras(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
     struct gn_at definitions = gn_at_array(g, &root, "cameras");
     struct gn_scene *scene = g->scene;
-    scene->cameras =
-        gn_gltf_alloc(g, g->memory.scene, (uint64_t)scene->node_count + 1, sizeof *scene->cameras);
+    GN_NEW(g, g->memory.scene, scene->cameras, (uint64_t)scene->node_count + 1);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);

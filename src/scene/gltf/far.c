@@ -186,13 +186,11 @@ static bool choose_mesh_origins(struct survey *s, uint32_t node, double size) {
 bool gn_gltf_far(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct survey s = {.g = g, .all = NOTHING};
-    s.world_from_node =
-        gn_gltf_alloc(g, &g->memory.load, scene->node_count, sizeof *s.world_from_node);
-    s.reach = gn_gltf_alloc(g, &g->memory.load, scene->node_count, sizeof *s.reach);
-    s.accessor = gn_gltf_alloc(g, &g->memory.load, g->file.accessor_count, sizeof *s.accessor);
-    s.seen = gn_gltf_alloc(g, &g->memory.load, g->file.accessor_count, sizeof *s.seen);
-    g->file.origins =
-        gn_gltf_alloc(g, &g->memory.load, g->file.accessor_count, sizeof *g->file.origins);
+    GN_NEW(g, &g->memory.load, s.world_from_node, scene->node_count);
+    GN_NEW(g, &g->memory.load, s.reach, scene->node_count);
+    GN_NEW(g, &g->memory.load, s.accessor, g->file.accessor_count);
+    GN_NEW(g, &g->memory.load, s.seen, g->file.accessor_count);
+    GN_NEW(g, &g->memory.load, g->file.origins, g->file.accessor_count);
     if (g->failed) return false;
     survey_nodes(&s);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++)

@@ -41,8 +41,7 @@ static bool make_rough(struct gn_gltf *g, const struct gn_image *from, float fac
 bool gn_gltf_glossiness(struct gn_gltf *g, float factor, int32_t *texture, float mean[3]) {
     struct gn_scene_pictures *pictures = &g->scene->pictures;
     if (!g->pictures.glossy) /* by number in the scene, which has those made, too */
-        g->pictures.glossy = gn_gltf_alloc(g, &g->memory.load, 2 * (uint64_t)g->file.texture_count,
-                                           sizeof *g->pictures.glossy);
+        GN_NEW(g, &g->memory.load, g->pictures.glossy, 2 * (uint64_t)g->file.texture_count);
     if (g->failed) return false;
     struct gn_glossy *known = &g->pictures.glossy[*texture];
     if (!known->made) {

@@ -257,13 +257,10 @@ static bool allocate_textures(struct gn_gltf *g) {
     g->to_scene.texture = gn_gltf_alloc(g, &g->memory.load, g->file.texture_count, sizeof(int32_t));
     g->to_scene.image = gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof(int32_t));
     /* and for one more of each, which gltf/glossiness.c may make */
-    scene->pictures.textures = gn_gltf_alloc(
-        g, g->memory.scene, 2 * (uint64_t)g->file.texture_count, sizeof *scene->pictures.textures);
-    scene->pictures.images =
-        gn_gltf_alloc(g, g->memory.scene, (uint64_t)g->file.image_count + g->file.texture_count,
-                      sizeof *scene->pictures.images);
-    g->pictures.list =
-        gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof *g->pictures.list);
+    GN_NEW(g, g->memory.scene, scene->pictures.textures, 2 * (uint64_t)g->file.texture_count);
+    GN_NEW(g, g->memory.scene, scene->pictures.images,
+           (uint64_t)g->file.image_count + g->file.texture_count);
+    GN_NEW(g, &g->memory.load, g->pictures.list, g->file.image_count);
     if (g->failed) return false;
     g->pictures.table = (struct gn_table){.stride = sizeof *g->pictures.list,
                                           .key_size = sizeof g->pictures.list->key,

@@ -69,7 +69,7 @@ bool gn_gltf_instances(struct gn_gltf *g) {
         total += copies.count;
     }
     scene->instance_count = (uint32_t)total;
-    scene->instances = gn_gltf_alloc(g, g->memory.scene, total, sizeof *scene->instances);
+    GN_NEW(g, g->memory.scene, scene->instances, total);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         const struct gn_placed *placed = &g->placed[i];
         if (placed->instance_count == 0) continue;

@@ -62,8 +62,7 @@ bool gn_gltf_items(struct gn_gltf *g) {
         return gn_gltf_fail(g, &nodes,
                             "%" PRIu64 " items are more than the limit instances=%" PRIu64, total,
                             g->limits.instances);
-    scene->items = gn_gltf_alloc(
-        g, g->memory.scene, total + (g->limits.floor.kind != GN_FLOOR_NONE), sizeof *scene->items);
+    GN_NEW(g, g->memory.scene, scene->items, total + (g->limits.floor.kind != GN_FLOOR_NONE));
     if (!scene->items) return false;
     if (total * DRAWN_BYTES > gn_gltf_room(g))
         return gn_gltf_fail(

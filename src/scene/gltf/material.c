@@ -277,8 +277,7 @@ bool gn_gltf_materials(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
     scene->material_count = (uint32_t)g->file.material_count + 1;
-    scene->materials =
-        gn_gltf_alloc(g, g->memory.scene, scene->material_count + 1, sizeof *scene->materials);
+    GN_NEW(g, g->memory.scene, scene->materials, scene->material_count + 1);
     bool *used = gn_gltf_alloc(g, &g->memory.load, scene->material_count, sizeof *used);
     if (g->failed) return false;
     for (uint32_t i = 0; i < scene->item_count; i++) used[scene->items[i].material] = true;

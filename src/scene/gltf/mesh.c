@@ -218,11 +218,9 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
             primitives += gn_gltf_variant_most(g, &primitive);
         }
     }
-    g->primitives.list = gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.list);
-    g->primitives.shapes =
-        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.shapes);
-    g->primitives.vertices =
-        gn_gltf_alloc(g, &g->memory.load, primitives, sizeof *g->primitives.vertices);
+    GN_NEW(g, &g->memory.load, g->primitives.list, primitives);
+    GN_NEW(g, &g->memory.load, g->primitives.shapes, primitives);
+    GN_NEW(g, &g->memory.load, g->primitives.vertices, primitives);
     if (g->failed) return false;
     reader.shapes = (struct gn_table){.stride = sizeof *g->primitives.shapes,
                                       .key_size = (GN_ATTRIBUTE_COUNT + 4) * sizeof(int32_t),

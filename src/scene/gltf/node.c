@@ -34,9 +34,9 @@ static bool read_tree(struct tree *tree) {
     if (tree->count > g->limits.nodes)
         return gn_gltf_fail(g, &tree->array, "%zu are more than the limit nodes=%" PRIu64,
                             tree->count, g->limits.nodes);
-    tree->sources = gn_gltf_alloc(g, &g->memory.load, tree->count, sizeof *tree->sources);
-    tree->stack = gn_gltf_alloc(g, &g->memory.load, tree->count, sizeof *tree->stack);
-    g->to_scene.node = gn_gltf_alloc(g, &g->memory.load, tree->count, sizeof *g->to_scene.node);
+    GN_NEW(g, &g->memory.load, tree->sources, tree->count);
+    GN_NEW(g, &g->memory.load, tree->stack, tree->count);
+    GN_NEW(g, &g->memory.load, g->to_scene.node, tree->count);
     if (!tree->sources || !tree->stack || !g->to_scene.node) return false;
     for (size_t i = 0; i < tree->count; i++) {
         tree->sources[i].parent = -1;
@@ -202,10 +202,9 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     g->file.skin_count = gn_at_size(&skins);
     g->file.mesh_count = gn_at_size(&meshes);
     g->file.node_count = tree.count;
-    g->file.meshes = gn_gltf_alloc(g, &g->memory.load, g->file.mesh_count, sizeof *g->file.meshes);
-    g->scene->nodes =
-        gn_gltf_alloc(g, g->memory.scene, tree.count + GN_ADDED_NODES, sizeof *g->scene->nodes);
-    g->placed = gn_gltf_alloc(g, &g->memory.load, tree.count + GN_ADDED_NODES, sizeof *g->placed);
+    GN_NEW(g, &g->memory.load, g->file.meshes, g->file.mesh_count);
+    GN_NEW(g, g->memory.scene, g->scene->nodes, tree.count + GN_ADDED_NODES);
+    GN_NEW(g, &g->memory.load, g->placed, tree.count + GN_ADDED_NODES);
     if (g->failed || !read_tree(&tree)) return false;
 
     int32_t *listed = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *listed);

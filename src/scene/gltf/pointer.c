@@ -95,8 +95,7 @@ bool gn_gltf_pointers(struct gn_gltf *g) {
     for (int i = 0; i < GN_THING_COUNT; i++)
         g->to_scene.record[i] =
             gn_gltf_alloc(g, &g->memory.load, count_things(g, i), sizeof **g->to_scene.record);
-    g->to_scene.moves =
-        gn_gltf_alloc(g, &g->memory.load, g->file.material_count, sizeof *g->to_scene.moves);
+    GN_NEW(g, &g->memory.load, g->to_scene.moves, g->file.material_count);
     g->to_scene.range_moves =
         gn_gltf_alloc(g, &g->memory.load, count_things(g, GN_THING_LIGHT), sizeof(bool));
     for (size_t i = 0; i < gn_at_size(&animations) && !g->failed; i++) {
@@ -107,8 +106,7 @@ bool gn_gltf_pointers(struct gn_gltf *g) {
         }
     }
     if (g->failed) return false;
-    animation->records =
-        gn_gltf_alloc(g, g->memory.scene, animation->record_floats, sizeof *animation->records);
+    GN_NEW(g, g->memory.scene, animation->records, animation->record_floats);
     if (!g->failed) read_visibility(g);
     return !g->failed;
 }

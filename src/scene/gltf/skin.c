@@ -136,8 +136,7 @@ static bool allocate_deformation(struct gn_gltf *g) {
     struct gn_scene_deformation *d = &g->scene->deformation;
     struct gn_at root = gn_at_root(g), skins = gn_at_array(g, &root, "skins");
     uint64_t joints = 0, morphs = 0, weights = 0;
-    g->to_scene.skin =
-        gn_gltf_alloc(g, &g->memory.load, g->file.skin_count, sizeof *g->to_scene.skin);
+    GN_NEW(g, &g->memory.load, g->to_scene.skin, g->file.skin_count);
     bool *wanted = gn_gltf_alloc(g, &g->memory.load, g->file.skin_count, sizeof *wanted);
     if (g->failed) return false;
     for (uint32_t i = 0; i < g->scene->node_count; i++) {
@@ -154,10 +153,10 @@ static bool allocate_deformation(struct gn_gltf *g) {
         g->to_scene.skin[i] = -1;
         if (wanted[i]) joints += count < GN_JOINTS_MAX ? count : GN_JOINTS_MAX;
     }
-    d->skins = gn_gltf_alloc(g, g->memory.scene, g->file.skin_count, sizeof *d->skins);
-    d->joints = gn_gltf_alloc(g, g->memory.scene, joints, sizeof *d->joints);
-    d->morphs = gn_gltf_alloc(g, g->memory.scene, morphs, sizeof *d->morphs);
-    d->weights = gn_gltf_alloc(g, g->memory.scene, weights, sizeof *d->weights);
+    GN_NEW(g, g->memory.scene, d->skins, g->file.skin_count);
+    GN_NEW(g, g->memory.scene, d->joints, joints);
+    GN_NEW(g, g->memory.scene, d->morphs, morphs);
+    GN_NEW(g, g->memory.scene, d->weights, weights);
     return !g->failed;
 }
 

@@ -10,7 +10,7 @@ bool gn_table_init(struct gn_gltf *g, struct gn_table *table, size_t most) {
     while (size < 2 * most) size *= 2;
     table->mask = size - 1;
     table->hash_key = &g->hash_key;
-    table->slots = gn_gltf_alloc(g, &g->memory.load, size, sizeof *table->slots);
+    GN_NEW(g, &g->memory.load, table->slots, size);
     return table->slots != NULL;
 }
 

@@ -13,7 +13,7 @@ bool gn_gltf_variants(struct gn_gltf *g) {
         gn_gltf_warn(g, &list, "%zu; only the first %d can be chosen", count, GN_VARIANTS_MAX);
         count = GN_VARIANTS_MAX;
     }
-    variants->names = gn_gltf_alloc(g, g->memory.scene, count, sizeof *variants->names);
+    GN_NEW(g, g->memory.scene, variants->names, count);
     for (size_t i = 0; i < count && !g->failed; i++) {
         struct gn_at at = gn_at_item(g, &list, i);
         variants->names[i] = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));

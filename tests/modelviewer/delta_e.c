@@ -1,4 +1,4 @@
-#include "image/delta_e.h"
+#include "modelviewer/delta_e.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* How different colours look. */
-#ifndef GN_IMAGE_DELTA_E_H
-#define GN_IMAGE_DELTA_E_H
+#ifndef GN_TESTS_DELTA_E_H
+#define GN_TESTS_DELTA_E_H
 
 /* CIELAB of a colour in sRGB (0..1, encoded), of D65 with the 2 degree observer. */
 void gn_lab_from_srgb(const float srgb[3], double lab[3]);
