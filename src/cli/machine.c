@@ -91,15 +91,14 @@ static void add_connector(struct gn_machine *m, const char *full, const char *ro
     read_text(root, path + strlen(root), text, sizeof text);
     copy_line(connector->mode, sizeof connector->mode, text);
     /* modes, one a line; those that differ in their rate only are equal lines */
-    size_t used = 0, length;
+    char *modes = connector->modes, word[24];
+    size_t length;
     for (const char *at = text; *at; at += length + (at[length] == '\n')) {
-        const size_t room = sizeof connector->modes - used;
-        char word[24];
         length = strcspn(at, "\n");
         snprintf(word, sizeof word, "%.*s", (int)length, at);
-        if (length + 2 > room) return;
-        if (!strstr(connector->modes, word))
-            used += (size_t)snprintf(connector->modes + used, room, "%s%s", used ? " " : "", word);
+        if (strlen(modes) + length + 2 > sizeof connector->modes) return;
+        if (!strstr(modes, word))
+            gn_text_add(modes, sizeof connector->modes, "%s%s", modes[0] ? " " : "", word);
     }
 }
 

@@ -40,9 +40,8 @@ bool gn_show_check_action(const struct gn_show_screen *s, const struct gn_action
     if (action->kind != GN_ACTION_MODE || gn_show_find_mode(&s->show->modes, action->name) >= 0)
         return true;
     char names[400] = "";
-    for (int i = 0, used = 0; i < s->show->modes.count && used < (int)sizeof names; i++)
-        used += snprintf(names + used, sizeof names - (size_t)used, "%s \"%s\"", i ? "," : "",
-                         s->show->modes.names[i]);
+    for (int i = 0; i < s->show->modes.count; i++)
+        gn_text_add(names, sizeof names, "%s \"%s\"", i ? "," : "", s->show->modes.names[i]);
     return gn_fail_usage(err, "no mode \"%.60s\"; expected%s", action->name, names);
 }
 
