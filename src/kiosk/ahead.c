@@ -258,11 +258,11 @@ void gn_show_work(struct gn_show_screen *s) {
 
 /* ---- the wanted scene and mode ---- */
 
-static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
+static void take_loaded(void *user, int64_t now_ns) {
     struct gn_show *s = user;
     struct gn_show_screen *screen = &s->screen;
     struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
-    (void)events, (void)now_ns;
+    (void)now_ns;
     if (!loaded) return; /* not done, or cancelled */
     for (int i = 0; i < loaded->warnings.count; i++)
         gn_warn(s->warnings, "%s", loaded->warnings.text[i]);
