@@ -60,9 +60,8 @@ static void recall_mode(const struct gn_show *s, struct gn_options *o) {
     const struct gn_settings *base = &o->all[0];
     const int found = gn_options_find_mode(o, mode);
     if (!mode[0] || o->settings->run.mode || o->is_lesson) return;
-    if (o->mode_count == 0 &&
-        (gn_settings_source(base, offsetof(struct gn_settings, render.shadow)) == GN_SOURCE_FLAG ||
-         strcmp(mode, gn_techniques[base->render.shadow.items[0]].name) == 0))
+    if (o->mode_count == 0 && (gn_settings_from(base, render.shadow) == GN_SOURCE_FLAG ||
+                               strcmp(mode, gn_techniques[base->render.shadow.items[0]].name) == 0))
         return;
     if (found)
         o->settings = &o->all[found];
@@ -81,8 +80,7 @@ static int list_place(const struct gn_options *o, const char *path) {
 
 static void recall_scene(struct gn_show *s, struct gn_options *o) {
     const struct gn_state *found = &memory_of(s)->state;
-    const enum gn_source source =
-        gn_settings_source(&o->all[0], offsetof(struct gn_settings, scene.path));
+    const enum gn_source source = gn_settings_from(&o->all[0], scene.path);
     if (!found->scene[0] || source == GN_SOURCE_FLAG || o->is_lesson) return;
     if (!found->given) {
         s->first.scene = list_place(o, found->listed[0] ? found->listed : found->scene);
