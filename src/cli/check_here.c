@@ -1,6 +1,5 @@
 /* gnomon show --check FILE --here: what the settings ask of the machine, and whether it has it.
  * What a kiosk could not do is an error; what it waits for, or does in another way, a warning. */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -46,15 +46,11 @@ static bool is_same(const struct version *a, const struct version *b) {
 
 /* ---- waiting -------------------------------------------------------------------------------- */
 
-static const char *name_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 static bool is_about(const struct gn_contents *c, const struct inotify_event *event) {
     if (event->len == 0) return event->mask & IN_Q_OVERFLOW;
     for (int i = 0; i < c->count; i++)
-        if (c->files[i].folder == event->wd && strcmp(name_of(c->files[i].path), event->name) == 0)
+        if (c->files[i].folder == event->wd &&
+            strcmp(gn_file_name(c->files[i].path), event->name) == 0)
             return true;
     return false;
 }
@@ -108,7 +104,7 @@ static const struct gn_content_file *find_file(const struct gn_contents *c, cons
 
 static void watch_folder(struct gn_contents *c, struct gn_content_file *file) {
     char folder[PATH_MAX];
-    const int length = (int)(name_of(file->path) - file->path);
+    const int length = (int)(gn_file_name(file->path) - file->path);
     if (snprintf(folder, sizeof folder, "%.*s", length, length ? file->path : "") >= PATH_MAX)
         return;
     file->folder = inotify_add_watch(c->watch.fd, length ? folder : ".",
@@ -142,7 +138,7 @@ static bool decode_uri(const char *uri, char *out, size_t size) {
 static void add_referred(struct gn_contents *next, const struct gn_contents *before,
                          const char *path, bool missed) {
     static const char *const lists[] = {"buffers", "images"};
-    const size_t length = strlen(path), folder = (size_t)(name_of(path) - path);
+    const size_t length = strlen(path), folder = (size_t)(gn_file_name(path) - path);
     struct gn_bytes bytes;
     struct gn_err unused = {0};
     char name[3 * PATH_MAX] /* "%20" is one */, whole[PATH_MAX];

@@ -2,11 +2,9 @@
 #include "kiosk/viewer.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "core/clock.h"
 #include "core/text.h"
@@ -56,20 +54,15 @@ static void show_help(struct gn_show_screen *s, bool on) {
 static void choose_camera(struct gn_show_screen *s, int number) {
     const uint32_t count = s->stage.scene->camera_count, place = (uint32_t)number;
     const struct gn_frame_opts *look = &s->looks.of[s->kiosk.shown.mode].frame_opts;
-    const struct gn_kiosk_event event = {
-        .kind = GN_KIOSK_CAMERA,
-        .time_ns = gn_loop_now_ns(s->show->loop),
-        .camera = (place + count - (uint32_t)look->view.camera % count) % count};
+    const uint32_t camera = (place + count - (uint32_t)look->view.camera % count) % count;
     if (place < count)
-        s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+        gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_CAMERA, .camera = camera});
     else
         gn_show_note(s, "the scene has %u camera%s", count, count == 1 ? "" : "s");
 }
 
 static void change_speed(struct gn_show_screen *s, int by) {
-    const struct gn_kiosk_event event = {
-        .kind = GN_KIOSK_SPEED, .time_ns = gn_loop_now_ns(s->show->loop), .by = by};
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = by});
     if (s->kiosk.speed >= 0)
         gn_show_note(s, "speed %d", 1 << s->kiosk.speed);
     else

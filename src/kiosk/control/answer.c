@@ -2,10 +2,8 @@
 
 #include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/arena.h"
 #include "core/clock.h"
 #include "kiosk/control/control.h"
 #include "kiosk/control/listen.h"
