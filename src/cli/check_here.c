@@ -1,11 +1,11 @@
 /* gnomon show --check FILE --here: what the settings ask of the machine, and whether it has it.
  * What a kiosk could not do is an error; what it waits for, or does in another way, a warning. */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/commands.h"
 #include "cli/doctor_report.h"
+#include "core/text.h"
 #include "display/cec.h"
 #include "input/line_find.h"
 
@@ -80,12 +80,10 @@ static bool is_connector(const struct gn_connector *c, const char *connector) {
 }
 
 static void list_connectors(const struct gn_machine *m, char *out, size_t size) {
-    size_t used = 0;
     out[0] = '\0';
-    for (int i = 0; i < m->connector_count && used < size; i++) {
+    for (int i = 0; i < m->connector_count; i++) {
         const char *dash = strchr(m->connectors[i].name, '-');
-        used += (size_t)snprintf(out + used, size - used, "%s %s", used ? "," : "",
-                                 dash ? dash + 1 : m->connectors[i].name);
+        gn_text_add(out, size, "%s %s", i ? "," : "", dash ? dash + 1 : m->connectors[i].name);
     }
 }
 

@@ -136,8 +136,7 @@ static bool connect_kiosk(struct talk *t, const struct gn_settings *o, struct gn
         snprintf(t->path, sizeof t->path, "%s", path);
         if (reason == 0) return true;
         if (reason != ENOENT && reason != ECONNREFUSED) return fail_path(path, reason, err);
-        const size_t used = strlen(tried);
-        snprintf(tried + used, sizeof tried - used, "%s%s", used ? " or " : "", path);
+        gn_text_add(tried, sizeof tried, "%s%s", tried[0] ? " or " : "", path);
     }
     return fail_path(tried, ENOENT, err);
 }

@@ -1,5 +1,4 @@
 /* Whether `gnomon bake` would help, and by how much. */
-#include <stdlib.h>
 
 #include "bake/bake.h"
 #include "cli/inspect.h"

@@ -18,14 +18,12 @@ static bool is_made(bool made, uint32_t i, uint32_t count) { return made && i + 
 /* What the configuration says of that light: of each section that is of it. */
 static void print_settings(const struct gn_inspection *in, uint32_t light, char *out, size_t size) {
     const struct gn_settings *s = in->settings;
-    size_t used = 0;
     out[0] = '\0';
     for (int i = 0; s && i < s->light_count; i++) {
         char text[300];
         if (!gn_light_section_is_of(&s->lights[i], in->scene, light)) continue;
         gn_stage_print_light(s, &s->lights[i], text, sizeof text);
-        if (text[0] && used < size)
-            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "", text);
+        if (text[0]) gn_text_add(out, size, "%s%s", out[0] ? ", " : "", text);
     }
 }
 

@@ -1,7 +1,6 @@
 /* gnomon lesson: faults of shadows beside their cures. With a screen the steps are the modes of a
  * kiosk; without one, or with -o, they are drawn, and measured against rays. */
 #include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -12,16 +12,9 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include "core/file.h"
 #include "core/memory.h"
 #include "core/text.h"
-
-__attribute__((format(printf, 3, 4))) static void format_text(char *out, size_t size,
-                                                              const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    gn_text_vformat(out, size, format, args);
-    va_end(args);
-}
 
 /* The first bytes of a file of the kernel, as text; "" if it cannot be read. */
 static const char *read_text(const char *root, const char *path, char *out, size_t size) {
@@ -35,20 +28,15 @@ static const char *read_text(const char *root, const char *path, char *out, size
 }
 
 static void copy_line(char *out, size_t size, const char *text) {
-    format_text(out, size, "%.*s", (int)strcspn(text, "\n"), text);
-}
-
-static const char *base_name(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
+    gn_text_format(out, size, "%.*s", (int)strcspn(text, "\n"), text);
 }
 
 static void name_group(gid_t gid, char *out, size_t size) {
     const struct group *group = getgrgid(gid);
     if (group)
-        format_text(out, size, "%s", group->gr_name);
+        gn_text_format(out, size, "%s", group->gr_name);
     else
-        format_text(out, size, "%u", (unsigned)gid);
+        gn_text_format(out, size, "%u", (unsigned)gid);
 }
 
 /* ---- devices ------------------------------------------------------------------------------- */
@@ -59,7 +47,7 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     if (m->device_count == GN_MACHINE_DEVICES || stat(full, &info)) return;
     struct gn_device *device = &m->devices[m->device_count++];
     device->kind = kind;
-    format_text(device->path, sizeof device->path, "%s", full + strlen(root));
+    gn_text_format(device->path, sizeof device->path, "%s", full + strlen(root));
     name_group(info.st_gid, device->group, sizeof device->group);
     device->group_may = (info.st_mode & 0060) == 0060;
     device->readable = access(full, R_OK) == 0;
@@ -68,14 +56,14 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     char path[PATH_MAX];
     snprintf(path, sizeof path,
              gpio ? "/sys/bus/gpio/devices/%s" : "/sys/class/drm/%s/device/driver",
-             base_name(device->path));
+             gn_file_name(device->path));
     char link[2 * PATH_MAX], target[PATH_MAX];
     snprintf(link, sizeof link, "%s%s", root, path);
     const ssize_t length = readlink(link, target, sizeof target - 1);
     if (length <= 0) return;
     target[length] = 0;
     if (gpio && strrchr(target, '/')) *strrchr(target, '/') = 0; /* the chip's parent */
-    format_text(device->driver, sizeof device->driver, "%s", base_name(target));
+    gn_text_format(device->driver, sizeof device->driver, "%s", gn_file_name(target));
 }
 
 /* full: ".../card0-HDMI-A-1/status" */
@@ -84,22 +72,21 @@ static void add_connector(struct gn_machine *m, const char *full, const char *ro
     if (m->connector_count == GN_MACHINE_CONNECTORS) return;
     struct gn_connector *connector = &m->connectors[m->connector_count++];
     snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(full, '/') - full), full);
-    format_text(connector->name, sizeof connector->name, "%s", base_name(folder));
+    gn_text_format(connector->name, sizeof connector->name, "%s", gn_file_name(folder));
     copy_line(connector->status, sizeof connector->status,
               read_text(root, full + strlen(root), text, sizeof text));
     snprintf(path, sizeof path, "%s/modes", folder);
     read_text(root, path + strlen(root), text, sizeof text);
     copy_line(connector->mode, sizeof connector->mode, text);
     /* modes, one a line; those that differ in their rate only are equal lines */
-    size_t used = 0, length;
+    char *modes = connector->modes, word[24];
+    size_t length;
     for (const char *at = text; *at; at += length + (at[length] == '\n')) {
-        const size_t room = sizeof connector->modes - used;
-        char word[24];
         length = strcspn(at, "\n");
         snprintf(word, sizeof word, "%.*s", (int)length, at);
-        if (length + 2 > room) return;
-        if (!strstr(connector->modes, word))
-            used += (size_t)snprintf(connector->modes + used, room, "%s%s", used ? " " : "", word);
+        if (strlen(modes) + length + 2 > sizeof connector->modes) return;
+        if (!strstr(modes, word))
+            gn_text_add(modes, sizeof connector->modes, "%s%s", modes[0] ? " " : "", word);
     }
 }
 
@@ -134,11 +121,12 @@ void gn_machine_read(struct gn_machine *machine, const char *root) {
     const char *pretty =
         strstr(read_text(root, "/etc/os-release", text, sizeof text), "PRETTY_NAME=\"");
     if (pretty)
-        format_text(machine->system, sizeof machine->system, "%.*s",
-                    (int)strcspn(pretty + 13, "\"\n"), pretty + 13);
+        gn_text_format(machine->system, sizeof machine->system, "%.*s",
+                       (int)strcspn(pretty + 13, "\"\n"), pretty + 13);
     if (uname(&name) == 0) {
-        format_text(machine->kernel, sizeof machine->kernel, "%s %s", name.sysname, name.release);
-        format_text(machine->arch, sizeof machine->arch, "%s", name.machine);
+        gn_text_format(machine->kernel, sizeof machine->kernel, "%s %s", name.sysname,
+                       name.release);
+        gn_text_format(machine->arch, sizeof machine->arch, "%s", name.machine);
     }
     const long cpus = sysconf(_SC_NPROCESSORS_ONLN);
     machine->cpus = cpus > 0 ? (int)cpus : 1;
@@ -149,9 +137,9 @@ void gn_machine_read(struct gn_machine *machine, const char *root) {
 
     const struct passwd *user = getpwuid(geteuid());
     if (user)
-        format_text(machine->user, sizeof machine->user, "%s", user->pw_name);
+        gn_text_format(machine->user, sizeof machine->user, "%s", user->pw_name);
     else
-        format_text(machine->user, sizeof machine->user, "%u", (unsigned)geteuid());
+        gn_text_format(machine->user, sizeof machine->user, "%u", (unsigned)geteuid());
     gid_t ids[GN_MACHINE_GROUPS];
     int count = getgroups(GN_MACHINE_GROUPS - 1, ids);
     if (count < 0) count = 0;

@@ -3,7 +3,6 @@
 #ifndef GN_CLI_MEMORY_H
 #define GN_CLI_MEMORY_H
 
-#include <stdbool.h>
 #include <sys/types.h>
 
 /* Megabytes (2^20 bytes) by /proc/self/smaps_rollup; NAN if the kernel has no such file. */

@@ -1,7 +1,6 @@
 /* gnomon score: how far the shadows in pictures of the open benchmark are from the truth
  * (assets/benchmark). */
 #include <dirent.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +9,7 @@
 
 #include "cli/commands.h"
 #include "cli/score_report.h"
+#include "core/file.h"
 #include "core/text.h"
 #include "image/measure.h"
 #include "image/write.h"
@@ -20,7 +20,7 @@ enum { PATH_ROOM = 4096 };
 
 /* The name of a picture, without folder and suffix; false: it does not end in the suffix. */
 static bool stem_of(const char *path, const char *suffix, char out[GN_SCORE_NAME]) {
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *name = gn_file_name(path);
     const size_t length = strlen(name), end = strlen(suffix);
     if (length <= end || strcmp(name + length - end, suffix) != 0 || length - end >= GN_SCORE_NAME)
         return false;

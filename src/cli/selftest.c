@@ -162,9 +162,15 @@ bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *
 
 /* ---- results ------------------------------------------------------------------------------- */
 
-static struct gn_selftest_sum sum_scenes(const struct gn_selftest *test,
-                                         const struct gn_selftest_row *row, bool away) {
-    struct gn_selftest_sum s = {0};
+struct sum { /* over the scenes of a row */
+    double mean, worst;
+    uint32_t worst_scene;
+};
+
+/* away: of the pixels away from edges; else of all. */
+static struct sum sum_scenes(const struct gn_selftest *test, const struct gn_selftest_row *row,
+                             bool away) {
+    struct sum s = {0};
     for (uint32_t i = 0; i < test->scene_count; i++) {
         double share = away ? row->scenes[i].away : row->scenes[i].wrong;
         s.mean += share / test->scene_count;
@@ -177,25 +183,14 @@ static struct gn_selftest_sum sum_scenes(const struct gn_selftest *test,
     return s;
 }
 
-struct gn_selftest_sum gn_selftest_away(const struct gn_selftest *test,
-                                        const struct gn_selftest_row *row) {
-    return sum_scenes(test, row, true);
-}
-
-struct gn_selftest_sum gn_selftest_wrong(const struct gn_selftest *test,
-                                         const struct gn_selftest_row *row) {
-    return sum_scenes(test, row, false);
-}
-
-bool gn_selftest_row_passes(const struct gn_selftest *test, const struct gn_selftest_row *row) {
-    return !row->failure[0] && gn_selftest_away(test, row).worst <= GN_SELFTEST_AWAY_MAX &&
-           gn_selftest_wrong(test, row).worst <= GN_SELFTEST_WRONG_MAX;
+static bool row_passes(const struct gn_selftest *test, const struct gn_selftest_row *row) {
+    return !row->failure[0] && sum_scenes(test, row, true).worst <= GN_SELFTEST_AWAY_MAX &&
+           sum_scenes(test, row, false).worst <= GN_SELFTEST_WRONG_MAX;
 }
 
 uint32_t gn_selftest_failures(const struct gn_selftest *test) {
     uint32_t failures = 0;
-    for (uint32_t i = 0; i < test->row_count; i++)
-        failures += !gn_selftest_row_passes(test, &test->rows[i]);
+    for (uint32_t i = 0; i < test->row_count; i++) failures += !row_passes(test, &test->rows[i]);
     return failures;
 }
 
@@ -206,14 +201,14 @@ void gn_selftest_print(const struct gn_selftest *test, FILE *to) {
             "worst", "scene", "all", "worst");
     for (uint32_t i = 0; i < test->row_count; i++) {
         const struct gn_selftest_row *row = &test->rows[i];
-        const struct gn_selftest_sum away = gn_selftest_away(test, row);
-        const struct gn_selftest_sum wrong = gn_selftest_wrong(test, row);
+        const struct sum away = sum_scenes(test, row, true);
+        const struct sum wrong = sum_scenes(test, row, false);
         fprintf(to, "  %-10s %-12s", gn_techniques[row->technique].name, format_of(row));
         if (row->failure[0])
             fprintf(to, " FAIL   %s\n", row->failure);
         else
             fprintf(to, " %-6s %7.3f %7.3f  %-9s %7.2f %7.2f  %s\n",
-                    gn_selftest_row_passes(test, row) ? "PASS" : "FAIL", away.mean, away.worst,
+                    row_passes(test, row) ? "PASS" : "FAIL", away.mean, away.worst,
                     away.worst > 0 ? test->scenes[away.worst_scene] : "-", wrong.mean, wrong.worst,
                     test->scenes[wrong.worst_scene]);
     }
@@ -223,7 +218,7 @@ void gn_selftest_print(const struct gn_selftest *test, FILE *to) {
             GN_SELFTEST_WRONG_MAX);
 }
 
-static json_t *sum_json(const struct gn_selftest *test, struct gn_selftest_sum s) {
+static json_t *sum_json(const struct gn_selftest *test, struct sum s) {
     return json_pack("{so so ss}", "mean", gn_json_make_number(s.mean), "worst",
                      gn_json_make_number(s.worst), "scene", test->scenes[s.worst_scene]);
 }
@@ -237,10 +232,10 @@ json_t *gn_selftest_json(const struct gn_selftest *test) {
         const struct gn_selftest_row *row = &test->rows[i];
         json_array_append_new(
             rows, json_pack("{ss ss sb ss? so so}", "technique", gn_techniques[row->technique].name,
-                            "map_format", format_of(row), "pass", gn_selftest_row_passes(test, row),
-                            "failure", row->failure[0] ? row->failure : NULL, "away",
-                            sum_json(test, gn_selftest_away(test, row)), "wrong",
-                            sum_json(test, gn_selftest_wrong(test, row))));
+                            "map_format", format_of(row), "pass", row_passes(test, row), "failure",
+                            row->failure[0] ? row->failure : NULL, "away",
+                            sum_json(test, sum_scenes(test, row, true)), "wrong",
+                            sum_json(test, sum_scenes(test, row, false))));
     }
     return json_pack("{s[ii] si s{sf sf} so so si si}", "size_px", (int)test->width_px,
                      (int)test->height_px, "map_px", GN_SELFTEST_MAP_PX, "limits", "away",

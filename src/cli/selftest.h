@@ -48,16 +48,6 @@ struct gn_selftest {
  * the failure of a row is in that row. */
 bool gn_selftest_run(struct gn_selftest *test, struct gn_gl *gl, struct gn_err *err);
 
-struct gn_selftest_sum {
-    double mean, worst;
-    uint32_t worst_scene;
-};
-/* Over the scenes of a row. */
-struct gn_selftest_sum gn_selftest_away(const struct gn_selftest *test,
-                                        const struct gn_selftest_row *row);
-struct gn_selftest_sum gn_selftest_wrong(const struct gn_selftest *test,
-                                         const struct gn_selftest_row *row);
-bool gn_selftest_row_passes(const struct gn_selftest *test, const struct gn_selftest_row *row);
 uint32_t gn_selftest_failures(const struct gn_selftest *test); /* rows */
 
 void gn_selftest_print(const struct gn_selftest *test, FILE *to);

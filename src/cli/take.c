@@ -1,6 +1,5 @@
 /* gnomon take: the folder gnomon of a USB stick becomes what a kiosk shows, once it is copied and
  * looked at; a text on the stick says what was done. */
-#include <fcntl.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

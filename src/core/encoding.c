@@ -33,7 +33,8 @@ size_t gn_uri_name(const char *uri, int number, char *out) {
     return length;
 }
 
-bool gn_base64_decode(const char *text, size_t length, uint8_t *out, size_t *size) {
+/* out may be the text itself; false: not base64. */
+static bool decode_base64(const char *text, size_t length, uint8_t *out, size_t *size) {
     static const char alphabet[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     int8_t table[256];
@@ -72,7 +73,7 @@ bool gn_data_uri_decode(const char *uri, uint8_t *out, size_t *size, const char 
     const size_t header = (size_t)(comma - uri), tail = sizeof mark - 1;
     *why = "data URI: not valid base64";
     if (header >= tail && strncasecmp(comma - tail, mark, tail) == 0)
-        return gn_base64_decode((const char *)out, decode_text(comma + 1, out), out, size);
+        return decode_base64((const char *)out, decode_text(comma + 1, out), out, size);
     *size = gn_percent_decode(comma + 1, out);
     return true;
 }

@@ -15,9 +15,6 @@ size_t gn_percent_decode(const char *text, uint8_t *out);
  * 0: no further name. */
 size_t gn_uri_name(const char *uri, int number, char *out);
 
-/* Into out, 3/4 of the length and 2 more, or over the text itself; false: not base64. */
-bool gn_base64_decode(const char *text, size_t length, uint8_t *out, size_t *size);
-
 /* The bytes of a data URI ("data:..;base64,..", also percent-encoded or with line breaks in it; or
  * percent-encoded alone; RFC 2397) into out, as large as the URI.
  * False without a comma, or for wrong base64. */

@@ -1,7 +1,6 @@
 #include "core/err.h"
 
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "core/text.h"
@@ -28,13 +27,6 @@ bool gn_fail_usage(struct gn_err *err, const char *format, ...) {
     return false;
 }
 
-static void set_text(struct gn_err *err, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    gn_text_vformat(err->text, sizeof err->text, format, args);
-    va_end(args);
-}
-
 bool gn_fail_prefix(struct gn_err *err, const char *format, ...) {
     if (!err) return false;
     struct gn_err prefix;
@@ -44,7 +36,7 @@ bool gn_fail_prefix(struct gn_err *err, const char *format, ...) {
     va_end(args);
     char said[sizeof err->text];
     memcpy(said, err->text, sizeof said);
-    set_text(err, "%s: %s", prefix.text, said);
+    gn_text_format(err->text, sizeof err->text, "%s: %s", prefix.text, said);
     return false;
 }
 

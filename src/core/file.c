@@ -134,6 +134,11 @@ int gn_file_open_beneath(const char *folder, const char *name, struct gn_err *er
     return keep_regular(fd, path, err);
 }
 
+const char *gn_file_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 void gn_bytes_finish(struct gn_bytes *bytes) {
     free(bytes->data);
     *bytes = (struct gn_bytes){0};

@@ -33,6 +33,7 @@ int gn_file_open(const char *path, struct gn_err *err);
 bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
                      struct gn_err *err);
 void gn_bytes_finish(struct gn_bytes *bytes);
+const char *gn_file_name(const char *path); /* its last part */
 
 /* Writes path atomically: a temporary file in the same folder, fsync'd and renamed, removed on
  * failure; a file that exists keeps its permissions. A symbolic link is refused: whoever may write

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/text.h"
+
 const char *const gn_health_names[GN_HEALTH_COUNT] = {
     [GN_HEALTH_VOLTAGE] = "undervoltage",
     [GN_HEALTH_THROTTLED] = "throttled",
@@ -121,18 +123,14 @@ void gn_health_take(struct gn_health_log *log, const struct gn_health *reading) 
 }
 
 void gn_health_summarise(const struct gn_health_log *log, char *out, size_t size) {
-    size_t used = 0;
     out[0] = '\0';
-    for (int i = 0; i < GN_HEALTH_COUNT && used < size; i++) {
+    for (int i = 0; i < GN_HEALTH_COUNT; i++) {
         const struct gn_ailment *a = &log->of[i];
-        const char *comma = used > 0 ? ", " : "";
+        const char *comma = out[0] ? ", " : "";
         const unsigned before = a->times - a->lasts;
-        if (a->lasts)
-            used +=
-                (size_t)snprintf(out + used, size - used, "%s%s now", comma, gn_health_names[i]);
-        if (before > 0 && used < size)
-            used += (size_t)snprintf(out + used, size - used, "%s%s %u time%s before",
-                                     a->lasts ? " and" : comma, a->lasts ? "" : gn_health_names[i],
-                                     before, before == 1 ? "" : "s");
+        if (a->lasts) gn_text_add(out, size, "%s%s now", comma, gn_health_names[i]);
+        if (before > 0)
+            gn_text_add(out, size, "%s%s %u time%s before", a->lasts ? " and" : comma,
+                        a->lasts ? "" : gn_health_names[i], before, before == 1 ? "" : "s");
     }
 }

@@ -64,10 +64,9 @@ void gn_loop_remove_timer(struct gn_timer *timer) {
     if (timer->link.loop) remove_link(&timer->link.loop->timers, &timer->link);
 }
 
-static void read_signals(void *user, uint32_t events, int64_t now_ns) {
+static void read_signals(void *user, int64_t now_ns) {
     struct gn_signals *signals = user;
     struct signalfd_siginfo info;
-    (void)events;
     (void)now_ns;
     while (signals->watch.link.loop && read(signals->watch.fd, &info, sizeof info) == sizeof info)
         signals->call(signals->user, (int)info.ssi_signo);
@@ -145,12 +144,12 @@ static int call_watches(struct gn_loop *loop, int64_t now_ns) {
     int calls = 0;
     for (loop->cursor = loop->watches.first; loop->cursor;) {
         struct gn_watch *watch = (struct gn_watch *)loop->cursor;
-        const uint32_t ready = watch->ready;
         loop->cursor = watch->link.next;
+        watch->came = watch->ready;
         watch->ready = 0;
-        if (!ready) continue;
+        if (!watch->came) continue;
         calls++;
-        if (watch->call) watch->call(watch->user, ready, now_ns);
+        if (watch->call) watch->call(watch->user, now_ns);
     }
     return calls;
 }

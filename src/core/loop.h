@@ -29,9 +29,10 @@ struct gn_loop_link { /* private */
 /* A descriptor. Zeroed and with fd -1 it is not added. */
 struct gn_watch {
     struct gn_loop_link link;
-    int fd;          /* not owned: remove the watch before it is closed */
-    uint32_t events; /* of epoll(7): EPOLLIN, EPOLLOUT | EPOLLET, .. */
-    void (*call)(void *user, uint32_t events, int64_t now_ns); /* NULL: it only ends the wait */
+    int fd;                                   /* not owned: remove the watch before it is closed */
+    uint32_t events;                          /* of epoll(7): EPOLLIN, EPOLLOUT | EPOLLET, .. */
+    uint32_t came;                            /* those that the call is for */
+    void (*call)(void *user, int64_t now_ns); /* NULL: it only ends the wait */
     void *user;
     uint32_t ready; /* private */
 };

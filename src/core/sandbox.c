@@ -8,7 +8,6 @@
 #include <limits.h>
 #include <linux/capability.h>
 #include <sched.h>
-#include <signal.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>

@@ -131,6 +131,13 @@ void gn_text_vformat(char *out, size_t size, const char *format, va_list args) {
     va_end(again);
 }
 
+void gn_text_format(char *out, size_t size, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    gn_text_vformat(out, size, format, args);
+    va_end(args);
+}
+
 static int least_of_three(int a, int b, int c) {
     int m = a < b ? a : b;
     return m < c ? m : c;

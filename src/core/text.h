@@ -12,6 +12,8 @@
  * not fit, at whole UTF-8 characters: in the middle ("..."), since the reason stands at the end,
  * behind names that can be long; at the end where size is under 64 bytes. */
 void gn_text_vformat(char *out, size_t size, const char *format, va_list args);
+void gn_text_format(char *out, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Prints a text from elsewhere on one line. What would move the cursor or turn a line round is
  * printed as \u001b: C0, DEL and C1 control characters, separators of lines and paragraphs, and

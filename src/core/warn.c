@@ -1,7 +1,6 @@
 #include "core/warn.h"
 
 #include <stdarg.h>
-#include <stdbool.h>
 #include <string.h>
 
 #include "core/text.h"

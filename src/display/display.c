@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "core/text.h"
 #include "display/kms/holder.h"
 #include "display/private.h"
 
@@ -20,19 +21,10 @@ static bool open_row(struct gn_display *display, const struct gn_display_ops *op
     return false;
 }
 
-static void append_text(char *list, size_t size, const char *text) {
-    size_t used = strlen(list), room = size - 1 - used;
-    size_t length = strlen(text) < room ? strlen(text) : room;
-    memcpy(list + used, text, length);
-    list[used + length] = 0;
-}
-
 static bool fail_unknown(const char *name, struct gn_err *err) {
     char names[sizeof err->text] = "auto";
-    for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
-        append_text(names, sizeof names, ", ");
-        append_text(names, sizeof names, (*row)->name);
-    }
+    for (const struct gn_display_ops *const *row = gn_displays; *row; row++)
+        gn_text_add(names, sizeof names, ", %s", (*row)->name);
     return gn_fail_usage(err, "unknown backend \"%s\": expected one of %s", name, names);
 }
 
@@ -54,10 +46,8 @@ bool gn_display_open(struct gn_display *display, const char *name, struct gn_war
     for (const struct gn_display_ops *const *row = gn_displays; *row; row++) {
         struct gn_err why = {0};
         if (open_row(display, *row, warnings, &why)) return true;
-        if (*reasons) append_text(reasons, sizeof reasons, "; ");
-        append_text(reasons, sizeof reasons, (*row)->name);
-        append_text(reasons, sizeof reasons, ": ");
-        append_text(reasons, sizeof reasons, why.text);
+        gn_text_add(reasons, sizeof reasons, "%s%s: %s", *reasons ? "; " : "", (*row)->name,
+                    why.text);
     }
     return gn_fail(err, "no display can be opened: %s", reasons);
 }

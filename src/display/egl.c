@@ -12,7 +12,7 @@ bool gn_egl_load(struct gn_egl *egl, struct gn_err *err) {
     if (!library) return false;
     egl->gles = gn_library_open("libGLESv2.so.2", "libgles2", err);
     if (!egl->gles) return false;
-#define X(type, name)                                                                              \
+#define X(name)                                                                                    \
     *(void **)&egl->name = dlsym(library, "egl" #name);                                            \
     if (!egl->name) return gn_fail(err, "libEGL.so.1 has no egl" #name "; install libegl1");
     GN_EGL_TABLE(X)

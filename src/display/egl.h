@@ -9,26 +9,16 @@
 
 #include "core/err.h"
 
-#define GN_EGL_TABLE(X)                                                                            \
-    X(PFNEGLGETPROCADDRESSPROC, GetProcAddress)                                                    \
-    X(PFNEGLQUERYSTRINGPROC, QueryString)                                                          \
-    X(PFNEGLINITIALIZEPROC, Initialize)                                                            \
-    X(PFNEGLTERMINATEPROC, Terminate)                                                              \
-    X(PFNEGLBINDAPIPROC, BindAPI)                                                                  \
-    X(PFNEGLGETCONFIGSPROC, GetConfigs)                                                            \
-    X(PFNEGLGETCONFIGATTRIBPROC, GetConfigAttrib)                                                  \
-    X(PFNEGLCHOOSECONFIGPROC, ChooseConfig)                                                        \
-    X(PFNEGLCREATECONTEXTPROC, CreateContext)                                                      \
-    X(PFNEGLDESTROYCONTEXTPROC, DestroyContext)                                                    \
-    X(PFNEGLCREATEPBUFFERSURFACEPROC, CreatePbufferSurface)                                        \
-    X(PFNEGLDESTROYSURFACEPROC, DestroySurface)                                                    \
-    X(PFNEGLMAKECURRENTPROC, MakeCurrent)                                                          \
-    X(PFNEGLSWAPBUFFERSPROC, SwapBuffers)                                                          \
-    X(PFNEGLGETERRORPROC, GetError)
+/* clang-format off */
+#define GN_EGL_TABLE(X) \
+    X(GetProcAddress) X(QueryString) X(Initialize) X(Terminate) X(BindAPI) X(GetConfigs) \
+    X(GetConfigAttrib) X(ChooseConfig) X(CreateContext) X(DestroyContext) \
+    X(CreatePbufferSurface) X(DestroySurface) X(MakeCurrent) X(SwapBuffers) X(GetError)
+/* clang-format on */
 
 struct gn_egl {
     void *gles; /* libGLESv2: not every eglGetProcAddress returns core functions */
-#define X(type, name) type name;
+#define X(name) __typeof__(egl##name) *(name);
     GN_EGL_TABLE(X)
 #undef X
 };

@@ -47,9 +47,7 @@ void gn_frame_add_backdrop(struct gn_frame *frame, const struct gn_pose *pose,
     const struct gn_plan *plan = &frame->plan;
     const enum gn_environment_show show = opts->environment.show;
     if (!plan->environment.light || show == GN_ENVIRONMENT_SHOW_NO || plan->transparent) return;
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_BACKDROP;
+    struct gn_program_key key = gn_key_of(GN_PROGRAM_BACKDROP);
     if (!plan->tones_sum) key.features |= gn_frame_tone_feature(frame);
     if (plan->encode_srgb && plan->output == GN_OUTPUT_LINEAR8)
         key.features |= GN_FEATURE(ENCODE_SRGB);

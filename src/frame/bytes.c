@@ -28,7 +28,8 @@ static void set_backs_size(const struct gn_map_need *need, uint32_t size_px[2]) 
     size_px[1] = need->paged ? need->map.tile_px : need->map.height_px;
 }
 
-uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count) {
+/* Lights share pages of one kind, far sides, and the textures between the steps of a filter. */
+static uint64_t bytes_of(const struct gn_map_need *needs, uint32_t count) {
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < count; i++) {
         const struct gn_map_need *need = &needs[i];
@@ -83,7 +84,7 @@ uint64_t gn_plan_map_bytes(const struct gn_plan *plan) {
     for (uint32_t i = 0; i < plan->pass_count; i++)
         if (plan->passes[i].target.kind == GN_TARGET_BACKS)
             needs[plan->passes[i].target.slot].backs = true;
-    return gn_map_needs_bytes(needs, plan->shadow_count);
+    return bytes_of(needs, plan->shadow_count);
 }
 
 /* ---- the limit ---- */
@@ -122,7 +123,7 @@ void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn
             .backs = gn_frame_has_middle(frame, maps[i].technique, maps[i].light.faces)};
         set_size(type, &maps[i], &needs[i]);
     }
-    while (gn_map_needs_bytes(needs, frame->view_count) > most_bytes) {
+    while (bytes_of(needs, frame->view_count) > most_bytes) {
         uint32_t slot = frame->view_count; /* of the map whose tiles are halved next */
         for (uint32_t i = 0; i < frame->view_count; i++) {
             if (needs[i].map.tile_px < 2 * LEAST_PX) continue;

@@ -1,7 +1,8 @@
 #include "frame/caps.h"
 
-#include <stdio.h>
 #include <string.h>
+
+#include "core/text.h"
 
 const char *const gn_cap_names[GN_CAP_COUNT] = {
     [GN_CAP_DEPTH_COMPARE] = "depth-compare",
@@ -64,10 +65,8 @@ bool gn_caps_parse(const char *list, uint32_t *out, struct gn_err *err) {
             cap++;
         if (cap == GN_CAP_COUNT) {
             char names[200] = "";
-            for (int i = 0; i < GN_CAP_COUNT; i++) {
-                size_t used = strlen(names);
-                snprintf(names + used, sizeof names - used, "%s%s", i ? ", " : "", gn_cap_names[i]);
-            }
+            for (int i = 0; i < GN_CAP_COUNT; i++)
+                gn_text_add(names, sizeof names, "%s%s", i ? ", " : "", gn_cap_names[i]);
             return gn_fail_usage(err, "unknown capability \"%.*s\"; expected %s",
                                  (int)(length < 80 ? length : 80), list, names);
         }

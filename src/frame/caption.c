@@ -74,9 +74,7 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts) {
     (void)pose;
     const struct gn_caption_run *run = opts->cover.captions;
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_CAPTION;
+    struct gn_program_key key = gn_key_of(GN_PROGRAM_CAPTION);
     if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
     if (opts->debug.aov != GN_AOV_COLOR) return;
     if (opts->cover.captions_later) gn_frame_program(frame, &key);

@@ -74,9 +74,8 @@ static void set_shadow(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_CODE][CODE_FAR_END] = view->code.far_end;
     if (view->encoding == GN_ENCODING_STENCIL) return; /* where it is not marked, all arrives */
     memcpy(c[SHADOW_MAP], lookup->map_from_world, sizeof lookup->map_from_world);
-    if (view->map.tile_count > 1 && !cascades) {
+    if (view->map.tile_count > 1 && !cascades)
         memcpy(c[SHADOW_TILES], lookup->tangent_uv, sizeof lookup->tangent_uv);
-    }
     const float texel = cascades ? 1.0f : lookup->texel;
     c[SHADOW_BIAS][BIAS_NORMAL] = lookup->normal_offset * texel;
     c[SHADOW_BIAS][BIAS_SLOPE] = lookup->slope_offset * texel;

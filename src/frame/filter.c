@@ -7,6 +7,7 @@
 
 #include "blocks.glsl"
 #include "core/hash.h"
+#include "core/text.h"
 #include "frame/private.h"
 
 /* Half the width of the filter's box; 0: none. */
@@ -139,9 +140,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const struct gn_filter_row *filter = gn_technique_filter(view->technique, view->moments);
     const struct gn_filter_stage *stage = &filter->stages[index];
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_FILTER;
+    struct gn_program_key key = gn_key_of(GN_PROGRAM_FILTER);
     key.step = (uint8_t)stage->step;
     key.moments = (uint8_t)gn_moments_of_programs(view->moments);
     if (gn_filter_steps[stage->step].reads_map) {
@@ -156,10 +155,7 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
     gn_frame_filter_size(view->technique, &view->map, stage->to, size_px);
     snprintf(pass->label, sizeof pass->label, "shadow %u %.26s %s", slot,
              frame->scene->lights[view->light].name, gn_filter_steps[stage->step].name);
-    if (stage->reach_px > 0) {
-        const size_t used = strlen(pass->label);
-        snprintf(pass->label + used, sizeof pass->label - used, " %u", stage->reach_px);
-    }
+    if (stage->reach_px > 0) gn_text_add(pass->label, sizeof pass->label, " %u", stage->reach_px);
     pass->target = (struct gn_target){.kind = GN_TARGET_MOMENTS,
                                       .slot = slot,
                                       .width_px = size_px[0],

@@ -2,6 +2,14 @@
 
 #include "frame/private.h"
 
+/* With its padding: keys are compared as bytes. */
+struct gn_program_key gn_key_of(enum gn_program_kind kind) {
+    struct gn_program_key key;
+    memset(&key, 0, sizeof key);
+    key.kind = (uint8_t)kind;
+    return key;
+}
+
 static uint64_t texture_bit(int slot) { return UINT64_C(1) << (GN_FEATURE_FIRST_TEXTURE + slot); }
 static uint64_t uv1_bit(int slot) { return UINT64_C(1) << (GN_FEATURE_FIRST_UV1 + slot); }
 
@@ -170,9 +178,8 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
                                  const struct gn_frame_opts *opts) {
     const struct gn_item *item = &frame->scene->items[index];
     const struct gn_material *m = &frame->scene->materials[item->material];
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = opts->debug.aov == GN_AOV_COLOR ? GN_PROGRAM_LIT : GN_PROGRAM_AOV;
+    struct gn_program_key key =
+        gn_key_of(opts->debug.aov == GN_AOV_COLOR ? GN_PROGRAM_LIT : GN_PROGRAM_AOV);
     key.aov = (uint8_t)opts->debug.aov;
     key.features = opts->debug.aov == GN_AOV_COLOR ? color_features(frame, item)
                                                    : alpha_features(frame->scene, item);
@@ -202,9 +209,7 @@ struct gn_program_key gn_key_tint(const struct gn_program_key *lit) {
     const uint64_t lost = GN_FEATURE(TONE_NEUTRAL) | GN_FEATURE(TONE_ACES) | GN_FEATURE(TONE_AGX) |
                           GN_FEATURE(FLAT_CONSTANTS) | GN_FEATURE(SHADOW_SPECULAR) |
                           ambient_features();
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = lit->kind;
+    struct gn_program_key key = gn_key_of(lit->kind);
     key.features = (lit->features & ~lost) | GN_FEATURE(UNLIT);
     return key;
 }
@@ -214,9 +219,7 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_light_group *group,
                                       const struct gn_frame_opts *opts) {
     const uint64_t once = GN_FEATURE(ENVIRONMENT_KEY) | ambient_features();
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = lit->kind;
+    struct gn_program_key key = gn_key_of(lit->kind);
     key.features = (lit->features & ~once) | GN_FEATURE(ADDITIVE);
     set_lights(frame, group, opts, (enum gn_receiver)lit->receiver, &key);
     return key;
@@ -224,11 +227,10 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
 
 struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
                                     const struct gn_shadow_view *view) {
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = gn_encoding_is_depth(view->encoding)    ? GN_PROGRAM_DEPTH
-               : view->encoding == GN_ENCODING_STENCIL ? GN_PROGRAM_FLAT
-                                                       : GN_PROGRAM_DISTANCE;
+    struct gn_program_key key =
+        gn_key_of(gn_encoding_is_depth(view->encoding)    ? GN_PROGRAM_DEPTH
+                  : view->encoding == GN_ENCODING_STENCIL ? GN_PROGRAM_FLAT
+                                                          : GN_PROGRAM_DISTANCE);
     const struct gn_item *what = &frame->scene->items[item];
     key.features = alpha_features(frame->scene, what);
     const struct gn_material *m = &frame->scene->materials[what->material];

@@ -2,8 +2,8 @@
  * follows the camera one per page, and one that copies the pages (shadow/pages.h); so, too, of each
  * cascade. */
 #include <stdio.h>
-#include <string.h>
 
+#include "core/text.h"
 #include "frame/private.h"
 
 /* Bytes of a light's name in a label; in that of a page " page 3" follows. */
@@ -54,8 +54,7 @@ static void draw_casters(struct gn_frame *frame, const struct gn_pose *pose,
     if (gn_frame_has_middle(frame, view->technique, view->faces_given ? 1 + (int)view->faces : 0)) {
         struct gn_pass *backs = &frame->passes.at[frame->passes.count - 1];
         struct gn_pass map = *backs;
-        const size_t used = strlen(backs->label);
-        snprintf(backs->label + used, sizeof backs->label - used, " far");
+        gn_text_add(backs->label, sizeof backs->label, " far");
         backs->target.kind = GN_TARGET_BACKS;
         backs->clear.area = GN_CLEAR_ALL;
         backs->clear.color[0] = view->code.far_end;
@@ -127,8 +126,7 @@ static void add_paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
         struct gn_shadow_page *page = &map->pages[i];
         struct gn_pass *part =
             begin_pass(frame, GN_PASS_MAP, map->slot, map->tile, i, page->clip_from_world);
-        const size_t used = strlen(part->label);
-        snprintf(part->label + used, sizeof part->label - used, " page %u", i);
+        gn_text_add(part->label, sizeof part->label, " page %u", i);
         part->target = pages_target(frame, map);
         part->viewport = (struct gn_rect){0, 0, map->page_px, map->page_px};
         part->clear.area = i == 0 ? GN_CLEAR_ALL : GN_CLEAR_NOTHING;

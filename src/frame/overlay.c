@@ -10,9 +10,7 @@
 enum { MARK_VERTICES = 6 * MARK_QUADS, GAP_PX = 8, FRAME_PX = 2 };
 
 static struct gn_program_key overlay_key(const struct gn_frame *frame, enum gn_program_kind kind) {
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = (uint8_t)kind;
+    struct gn_program_key key = gn_key_of(kind);
     if (frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8)
         key.features = GN_FEATURE(ENCODE_SRGB);
     return key;

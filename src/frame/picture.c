@@ -213,9 +213,7 @@ void gn_frame_add_encode(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts) {
     (void)pose;
     if (!frame->plan.finishes) return;
-    struct gn_program_key key;
-    memset(&key, 0, sizeof key);
-    key.kind = GN_PROGRAM_ENCODE;
+    struct gn_program_key key = gn_key_of(GN_PROGRAM_ENCODE);
     if (frame->plan.tones_sum) key.features |= gn_frame_tone_feature(frame);
     if (frame->plan.transparent) key.features |= GN_FEATURE(TRANSPARENT);
     if (frame->plan.transparent && !frame->plan.tones_sum && draws_glass(frame))

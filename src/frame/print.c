@@ -209,8 +209,6 @@ void gn_plan_print(const struct gn_plan *plan, FILE *to) {
         fprintf(to, "program %u: ", i);
         print_key(&plan->programs[i], to);
     }
-    for (uint32_t i = 0; i < plan->shadow_count; i++) {
-        print_shadow(plan, i, to);
-    }
+    for (uint32_t i = 0; i < plan->shadow_count; i++) print_shadow(plan, i, to);
     for (uint32_t i = 0; i < plan->pass_count; i++) print_pass(plan, &plan->passes[i], to);
 }

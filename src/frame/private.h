@@ -276,8 +276,6 @@ struct gn_map_need { /* of a light */
 /* Whether casters may cast by their middle (GN_CAST_MIDDLE): then passes draw their far sides.
  * faces: as in gn_light_opts. */
 bool gn_frame_has_middle(const struct gn_frame *frame, enum gn_technique technique, int faces);
-/* Lights share pages of one kind, far sides, and the textures between the steps of a filter. */
-uint64_t gn_map_needs_bytes(const struct gn_map_need *needs, uint32_t count);
 /* Halves map_px of the maps, by slot, until they take at most so many bytes; 0: no limit. */
 void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn_shadow_opts *maps,
                           struct gn_warnings *warnings);
@@ -300,6 +298,7 @@ void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from
 
 /* key.c: the program that draws an item. */
 /* Whether that reads the shadows of planar lights. */
+struct gn_program_key gn_key_of(enum gn_program_kind kind); /* all else is zero */
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item, const struct gn_frame_opts *opts);
 /* The plane whose planar shadows it reads, if that is not the first; else 0. */
 uint32_t gn_key_further_plane(const struct gn_frame *frame, uint32_t item,

@@ -11,6 +11,7 @@
 
 #include "blocks.glsl"
 #include "core/arena.h"
+#include "core/text.h"
 #include "frame/private.h"
 
 enum { SEEN = 0x80, SETS = 1 << GN_SHADOWS_MAX }; /* bits below SEEN: a light's shadow each */
@@ -123,11 +124,10 @@ static void add_set_pass(struct gn_frame *frame, const struct marks *marks, uint
     struct gn_pass *pass = gn_frame_begin_pass(frame, GN_PASS_PICTURE);
     *pass = *lit;
     pass->rect = pass_rect(frame, rect);
-    size_t used = strlen(pass->label);
     for (uint32_t i = 0; i < marks->count; i++)
-        if (set >> i & 1 && used < sizeof pass->label)
-            used += (size_t)snprintf(pass->label + used, sizeof pass->label - used, "%s %u",
-                                     set & ((1u << i) - 1) ? "" : ", shadow", marks->slots[i]);
+        if (set >> i & 1)
+            gn_text_add(pass->label, sizeof pass->label, "%s %u",
+                        set & ((1u << i) - 1) ? "" : ", shadow", marks->slots[i]);
     pass->depth_write = false;
     pass->picture.stencil = (struct gn_stencil){
         .value = (uint8_t)(SEEN | set), .reads = (uint8_t)(SEEN | ((1u << marks->count) - 1))};

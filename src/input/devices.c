@@ -23,9 +23,8 @@ static void lose_device(struct gn_devices *devices, struct gn_device *d, int64_t
 
 /* ---- finding devices ----------------------------------------------------------------------- */
 
-static void on_readable(void *user, uint32_t events, int64_t now_ns) {
+static void on_readable(void *user, int64_t now_ns) {
     struct gn_device *d = user;
-    (void)events;
     d->readable = true;
     d->all->timer->due_ns = now_ns;
 }

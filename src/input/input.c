@@ -32,9 +32,8 @@ static void watch_folders(struct gn_input *input) {
         input->devices_watch = inotify_add_watch(input->notify.fd, input->devices_folder, events);
 }
 
-static void on_folder_event(void *user, uint32_t events, int64_t now_ns) {
+static void on_folder_event(void *user, int64_t now_ns) {
     struct gn_input *input = user;
-    (void)events;
     input->folders_changed = true;
     input->timer.due_ns = now_ns;
 }

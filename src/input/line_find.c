@@ -6,6 +6,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "core/text.h"
+
 enum { CHIPS_MAX = 32 };
 
 /* ---- line specifications ------------------------------------------------------------------- */
@@ -106,10 +108,8 @@ static void search_chip(const struct gn_gpio_ops *ops, void *chip, const char *p
                     .fits = fits, .chip = *info, .line = line, .offset = offset};
                 snprintf(match->path, sizeof match->path, "%s", path);
             }
-            const size_t used = strlen(match->list);
-            snprintf(match->list + used, sizeof match->list - used, "%s%s (%s) line %u",
-                     match->count ? ", " : "", info->name, info->label, offset);
-            match->count++;
+            gn_text_add(match->list, sizeof match->list, "%s%s (%s) line %u",
+                        match->count++ ? ", " : "", info->name, info->label, offset);
         }
     }
 }

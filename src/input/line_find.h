@@ -3,8 +3,6 @@
 #ifndef GN_INPUT_LINE_FIND_H
 #define GN_INPUT_LINE_FIND_H
 
-#include <stdint.h>
-
 #include "core/err.h"
 #include "input/gpio.h"
 

@@ -83,10 +83,10 @@ static void lose_line(struct gn_lines *lines, struct gn_line *l, int error, int6
     report_once(lines, l, text);
 }
 
-static void on_readable(void *user, uint32_t events, int64_t now_ns) {
+static void on_readable(void *user, int64_t now_ns) {
     struct gn_line *l = user;
     l->readable = true;
-    l->hung_up |= events & (EPOLLHUP | EPOLLERR);
+    l->hung_up |= l->watch.came & (EPOLLHUP | EPOLLERR);
     l->all->timer->due_ns = now_ns;
 }
 

@@ -1,5 +1,4 @@
 /* Converts options of buttons to gestures, lines and keys, and validates them. */
-#include <stdio.h>
 #include <string.h>
 
 #include "input/private.h"

@@ -72,16 +72,14 @@ static void on_end(int number, siginfo_t *info, void *context) {
     if (info->si_code <= 0 || number == SIGQUIT) raise(number);
 }
 
-static void on_readable(void *user, uint32_t events, int64_t now_ns) {
+static void on_readable(void *user, int64_t now_ns) {
     struct gn_terminal *t = user;
-    (void)events;
     t->readable = true;
     t->timer->due_ns = now_ns;
 }
 
-static void on_resumed(void *user, uint32_t events, int64_t now_ns) {
+static void on_resumed(void *user, int64_t now_ns) {
     struct gn_terminal *t = user;
-    (void)events;
     t->resumed = true;
     t->timer->due_ns = now_ns;
 }

@@ -6,7 +6,6 @@
 #define GN_INPUT_TERMINAL_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
 #include "core/loop.h"
 #include "input/terminal_keys.h"

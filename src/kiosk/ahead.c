@@ -47,13 +47,11 @@ bool gn_show_reload_is_staged(const struct gn_show_screen *s) {
 /* The mode or scene of that number cannot be shown. */
 static void fail_place(struct gn_show_screen *s, enum gn_kiosk_event_kind kind, int number,
                        const char *why) {
-    const struct gn_kiosk_event failed = {
-        .kind = kind, .time_ns = gn_loop_now_ns(s->show->loop), .mode = number, .scene = number};
     const bool of_mode = kind == GN_KIOSK_MODE_FAILED;
     *(of_mode ? &s->show->problems.mode : &s->show->problems.scene) = number;
     gn_problem_report(&s->show->problems, of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE, why);
     if (!of_mode) gn_parts_loaded(&s->show->parts, GN_PART_LOAD_SCENE);
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &failed);
+    gn_show_send(s, (struct gn_kiosk_event){.kind = kind, .mode = number, .scene = number});
     gn_latency_drop(&s->show->buttons.latency);
 }
 
@@ -258,11 +256,11 @@ void gn_show_work(struct gn_show_screen *s) {
 
 /* ---- the wanted scene and mode ---- */
 
-static void take_loaded(void *user, uint32_t events, int64_t now_ns) {
+static void take_loaded(void *user, int64_t now_ns) {
     struct gn_show *s = user;
     struct gn_show_screen *screen = &s->screen;
     struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
-    (void)events, (void)now_ns;
+    (void)now_ns;
     if (!loaded) return; /* not done, or cancelled */
     for (int i = 0; i < loaded->warnings.count; i++)
         gn_warn(s->warnings, "%s", loaded->warnings.text[i]);
@@ -318,11 +316,8 @@ bool gn_show_can_advance(const struct gn_show_screen *s) {
 static void show_wanted(struct gn_show_screen *s, int scene) {
     struct gn_show_scenes *scenes = &s->show->scenes;
     struct gn_stage *stage = &s->stage;
-    const struct gn_kiosk_event ready = {.kind = GN_KIOSK_READY,
-                                         .time_ns = gn_loop_now_ns(s->show->loop),
-                                         .mode = s->kiosk.wanted.mode,
-                                         .scene = scene};
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &ready);
+    gn_show_send(s, (struct gn_kiosk_event){
+                        .kind = GN_KIOSK_READY, .mode = s->kiosk.wanted.mode, .scene = scene});
 
     /* the staged scene replaces the stage's */
     if (scene != s->scene) {

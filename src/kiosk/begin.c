@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "core/arena.h"
-#include "core/stop.h"
 #include "kiosk/private.h"
 #include "options/args.h"
 

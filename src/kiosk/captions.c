@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "core/file.h"
 #include "kiosk/private.h"
 
 void gn_show_open_captions(struct gn_show_screen *s) {
@@ -22,8 +23,7 @@ void gn_show_open_captions(struct gn_show_screen *s) {
 }
 
 const char *gn_show_path_name(const char *path) {
-    const char *slash = path ? strrchr(path, '/') : NULL;
-    return !path ? "default scene" : slash ? slash + 1 : path;
+    return path ? gn_file_name(path) : "default scene";
 }
 
 static const char *scene_name(const struct gn_show_screen *s, int scene) {

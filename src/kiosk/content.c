@@ -12,6 +12,7 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/encoding.h"
 #include "core/file.h"
 
 static const int64_t SETTLE_NS = GN_NS_PER_S / 2, POLL_NS = 2 * GN_NS_PER_S;
@@ -45,15 +46,11 @@ static bool is_same(const struct version *a, const struct version *b) {
 
 /* ---- waiting -------------------------------------------------------------------------------- */
 
-static const char *name_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 static bool is_about(const struct gn_contents *c, const struct inotify_event *event) {
     if (event->len == 0) return event->mask & IN_Q_OVERFLOW;
     for (int i = 0; i < c->count; i++)
-        if (c->files[i].folder == event->wd && strcmp(name_of(c->files[i].path), event->name) == 0)
+        if (c->files[i].folder == event->wd &&
+            strcmp(gn_file_name(c->files[i].path), event->name) == 0)
             return true;
     return false;
 }
@@ -71,12 +68,11 @@ static bool look_again(struct gn_contents *c, bool *fresh) {
     return stable;
 }
 
-static void take_events(void *user, uint32_t events, int64_t now_ns) {
+static void take_events(void *user, int64_t now_ns) {
     struct gn_contents *c = user;
     char buffer[4096] __attribute__((aligned(__alignof__(struct inotify_event))));
     ssize_t got;
     bool about = false, fresh;
-    (void)events;
     while ((got = read(c->watch.fd, buffer, sizeof buffer)) > 0)
         for (const char *at = buffer; at < buffer + got;) {
             const struct inotify_event *event = (const struct inotify_event *)(const void *)at;
@@ -108,7 +104,7 @@ static const struct gn_content_file *find_file(const struct gn_contents *c, cons
 
 static void watch_folder(struct gn_contents *c, struct gn_content_file *file) {
     char folder[PATH_MAX];
-    const int length = (int)(name_of(file->path) - file->path);
+    const int length = (int)(gn_file_name(file->path) - file->path);
     if (snprintf(folder, sizeof folder, "%.*s", length, length ? file->path : "") >= PATH_MAX)
         return;
     file->folder = inotify_add_watch(c->watch.fd, length ? folder : ".",
@@ -132,32 +128,20 @@ static void add_file(struct gn_contents *next, const struct gn_contents *before,
     watch_folder(next, file);
 }
 
-static int hex_of(char c) {
-    static const char digits[] = "0123456789abcdef";
-    const char *at = c ? strchr(digits, c | 0x20) : NULL;
-    return at ? (int)(at - digits) : -1;
-}
-
 /* A URI's path; false for data: and what is too long. */
 static bool decode_uri(const char *uri, char *out, size_t size) {
-    size_t used = 0;
-    if (!uri || strncmp(uri, "data:", 5) == 0) return false;
-    while (*uri && used + 1 < size) {
-        const bool coded = uri[0] == '%' && hex_of(uri[1]) >= 0 && hex_of(uri[2]) >= 0;
-        out[used++] = coded ? (char)(hex_of(uri[1]) * 16 + hex_of(uri[2])) : uri[0];
-        uri += coded ? 3 : 1;
-    }
-    out[used] = '\0';
-    return !*uri;
+    if (!uri || strncmp(uri, "data:", 5) == 0 || strlen(uri) >= size) return false;
+    out[gn_percent_decode(uri, (uint8_t *)out)] = '\0';
+    return true;
 }
 
 static void add_referred(struct gn_contents *next, const struct gn_contents *before,
                          const char *path, bool missed) {
     static const char *const lists[] = {"buffers", "images"};
-    const size_t length = strlen(path), folder = (size_t)(name_of(path) - path);
+    const size_t length = strlen(path), folder = (size_t)(gn_file_name(path) - path);
     struct gn_bytes bytes;
     struct gn_err unused = {0};
-    char name[PATH_MAX], whole[PATH_MAX];
+    char name[3 * PATH_MAX] /* "%20" is one */, whole[PATH_MAX];
     if (length < 5 || strcmp(path + length - 5, ".gltf") != 0 ||
         !gn_file_read(path, GLTF_MAX, &bytes, &unused))
         return;

@@ -13,15 +13,18 @@ void gn_show_report_error(struct gn_show *s, enum gn_problem kind, const char *t
     s->screen.changed = true;
 }
 
+void gn_show_send(struct gn_show_screen *s, struct gn_kiosk_event event) {
+    if (event.time_ns == 0) event.time_ns = gn_loop_now_ns(s->show->loop);
+    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+}
+
 void gn_show_note(struct gn_show_screen *s, const char *format, ...) {
-    const struct gn_kiosk_event note = {.kind = GN_KIOSK_NOTE,
-                                        .time_ns = gn_loop_now_ns(s->show->loop),
-                                        .caption = GN_KIOSK_CAPTION_NOTE};
     va_list args;
     va_start(args, format);
     gn_text_vformat(s->viewer.note, sizeof s->viewer.note, format, args);
     va_end(args);
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &note);
+    gn_show_send(s,
+                 (struct gn_kiosk_event){.kind = GN_KIOSK_NOTE, .caption = GN_KIOSK_CAPTION_NOTE});
     s->changed = true;
 }
 
@@ -40,9 +43,8 @@ bool gn_show_check_action(const struct gn_show_screen *s, const struct gn_action
     if (action->kind != GN_ACTION_MODE || gn_show_find_mode(&s->show->modes, action->name) >= 0)
         return true;
     char names[400] = "";
-    for (int i = 0, used = 0; i < s->show->modes.count && used < (int)sizeof names; i++)
-        used += snprintf(names + used, sizeof names - (size_t)used, "%s \"%s\"", i ? "," : "",
-                         s->show->modes.names[i]);
+    for (int i = 0; i < s->show->modes.count; i++)
+        gn_text_add(names, sizeof names, "%s \"%s\"", i ? "," : "", s->show->modes.names[i]);
     return gn_fail_usage(err, "no mode \"%.60s\"; expected%s", action->name, names);
 }
 
@@ -62,5 +64,5 @@ void gn_show_act(struct gn_show_screen *s, const struct gn_action *action, int64
         gn_problem_report(&s->show->problems, GN_PROBLEM_ACTION, err.text);
     else if (action->kind == GN_ACTION_MODE || action->kind == GN_ACTION_PLAY)
         gn_problem_cure(&s->show->problems, GN_PROBLEM_ACTION);
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    gn_show_send(s, event);
 }

@@ -45,7 +45,6 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
     const struct gn_screen *screen = &s->stage.display.screen;
     const int64_t seen_ns = screen->seen_ns;
     const struct gn_kiosk_view view = gn_kiosk_view(&s->rules, &s->kiosk, seen_ns);
-    const struct gn_kiosk_event event = {.kind = GN_KIOSK_FRAME, .time_ns = seen_ns};
     s->drawn.dark = view.dark;
     if (screen->black || (view.dark && s->rules.sleeps_black)) {
         gn_gl_black(s->stage.gl);
@@ -94,7 +93,7 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
             s->show->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
     }
     s->drawn = view;
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_FRAME, .time_ns = seen_ns});
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
     gn_frame_times_add(&s->show->counts.times, gn_loop_now_ns(s->show->loop));
     fill_screenshot(s, s->show->screenshot);

@@ -42,11 +42,10 @@ static void report_ailment(struct health *h, enum gn_health_kind kind, bool last
     }
 }
 
-static void take_health(void *user, uint32_t events, int64_t now_ns) {
+static void take_health(void *user, int64_t now_ns) {
     struct health *h = user;
     struct gn_health reading;
     bool lasted[GN_HEALTH_COUNT];
-    (void)events;
     (void)now_ns;
     gn_sensor_read(h->sensor, &reading);
     for (int i = 0; i < GN_HEALTH_COUNT; i++) lasted[i] = h->log.of[i].lasts;

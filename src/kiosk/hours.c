@@ -1,7 +1,6 @@
 /* [schedule]: the screen off, or darker, by the local clock. The clock is looked at when the next
  * minute begins and every ten seconds, so that one that jumps is noticed. While it is not set the
  * screen stays on: boards without a clock of their own start in the past. */
-#include <stdio.h>
 #include <time.h>
 
 #include "core/clock.h"

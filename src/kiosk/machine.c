@@ -337,14 +337,3 @@ int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_ki
         at_ns = earlier_ns(at_ns, state->used_ns + rules->idle_after_ns);
     return at_ns;
 }
-
-void gn_kiosk_print(const struct gn_kiosk *s, FILE *to) {
-    static const char *const captions[] = {"",       " mode", " scene",  " camera",
-                                           " pause", " note", " problem"};
-    fprintf(to, "mode %d scene %d", s->shown.mode, s->shown.scene);
-    if (gn_kiosk_waits(s)) fprintf(to, " wants mode %d scene %d", s->wanted.mode, s->wanted.scene);
-    if (s->play.clip_plus_1 > 0) fprintf(to, " plays clip %d", s->play.clip_plus_1 - 1);
-    fprintf(to, " camera +%u at %.3f s%s%s%s%s%s%s\n", s->camera, (double)s->scene_ns * 1e-9,
-            s->paused ? " paused" : "", s->blanked ? " blanked" : "", s->info ? " info" : "",
-            s->fade_begun_ns ? " fades" : "", s->caption ? " caption" : "", captions[s->caption]);
-}

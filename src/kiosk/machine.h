@@ -7,7 +7,6 @@
 
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
 
 #include "options/action.h"
 
@@ -119,8 +118,5 @@ struct gn_kiosk_view gn_kiosk_view(const struct gn_kiosk_rules *rules, const str
                                    int64_t seen_ns);
 /* When the next GN_KIOSK_TICK is due; INT64_MAX: never. */
 int64_t gn_kiosk_deadline(const struct gn_kiosk_rules *rules, const struct gn_kiosk *state);
-
-/* One line, for the log and for tests. */
-void gn_kiosk_print(const struct gn_kiosk *state, FILE *to);
 
 #endif

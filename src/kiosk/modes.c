@@ -32,8 +32,7 @@ static void list_techniques(struct gn_show *s) {
     enum gn_technique order[GN_TECHNIQUE_COUNT];
     const struct gn_settings *o = &s->config.options->all[0];
     struct gn_show_modes *modes = &s->modes;
-    const bool only =
-        gn_settings_source(o, offsetof(struct gn_settings, render.shadow)) == GN_SOURCE_FLAG;
+    const bool only = gn_settings_from(o, render.shadow) == GN_SOURCE_FLAG;
     gn_techniques_by_rank(order);
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
         const enum gn_technique technique = order[i];
@@ -56,10 +55,6 @@ static int find_scene(struct gn_show_scenes *scenes, const char *path) {
     if (scenes->count == GN_KIOSK_SCENES_MAX) return 0;
     scenes->paths[scenes->count] = path;
     return scenes->count++;
-}
-
-static bool comes_from_mode(const struct gn_settings *o, size_t offset) {
-    return gn_settings_source(o, offset) == GN_SOURCE_MODE;
 }
 
 void gn_show_take_rules(struct gn_show_screen *s) {
@@ -92,9 +87,9 @@ void gn_show_list_modes(struct gn_show *s) {
     gn_show_take_rules(&s->screen);
     for (int i = 0; i < s->modes.count; i++) {
         const struct gn_settings *mode = gn_show_settings(s, i);
-        if (comes_from_mode(mode, offsetof(struct gn_settings, scene.path)))
+        if (gn_settings_from(mode, scene.path) == GN_SOURCE_MODE)
             s->screen.rules.own_scene[i] = (uint8_t)(1 + find_scene(&s->scenes, mode->scene.path));
-        if (comes_from_mode(mode, offsetof(struct gn_settings, scene.camera)))
+        if (gn_settings_from(mode, scene.camera) == GN_SOURCE_MODE)
             s->screen.rules.own_camera |= 1u << i;
     }
 }

@@ -125,6 +125,8 @@ bool gn_show_begin(struct gn_show *show, struct gn_err *err);
 
 /* ---- events.c: actions as events of the machine ---------------------------------------------- */
 
+/* The next state of the screen's machine. time_ns 0: now. */
+void gn_show_send(struct gn_show_screen *screen, struct gn_kiosk_event event);
 void gn_show_act(struct gn_show_screen *screen, const struct gn_action *action, int64_t time_ns);
 /* Whether there is the mode, or in the scene that is shown the clip, that it names. */
 bool gn_show_check_action(const struct gn_show_screen *screen, const struct gn_action *action,

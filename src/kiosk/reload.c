@@ -92,11 +92,9 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     if (cause == GN_RELOAD_FILE) return;
     gn_parts_loaded(&s->parts, GN_PART_LOAD_FAILED);
     if (cause != GN_RELOAD_ASKED) {
-        const struct gn_kiosk_event failed = {.kind = GN_KIOSK_NOTE,
-                                              .time_ns = gn_loop_now_ns(s->loop),
-                                              .caption = GN_KIOSK_CAPTION_PROBLEM};
         gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why->text);
-        s->screen.kiosk = gn_kiosk_step(&s->screen.rules, &s->screen.kiosk, &failed);
+        gn_show_send(&s->screen, (struct gn_kiosk_event){.kind = GN_KIOSK_NOTE,
+                                                         .caption = GN_KIOSK_CAPTION_PROBLEM});
         s->screen.changed = true;
         return;
     }
@@ -117,10 +115,6 @@ static void choose_mode(const struct gn_show *s, struct gn_options *options) {
     if (found) options->settings = &options->all[found];
 }
 
-static bool is_of_mode(const struct gn_settings *o) {
-    return gn_settings_source(o, offsetof(struct gn_settings, scene.path)) == GN_SOURCE_MODE;
-}
-
 /* A changed file is shown where it was in the list. */
 static int same_scene(const struct gn_show *s, const struct gn_options *options) {
     const struct gn_scene_list *list = &options->all[0].scene.list;
@@ -132,7 +126,8 @@ static int same_scene(const struct gn_show *s, const struct gn_options *options)
 
 /* The mode's own, or that one of the list. */
 static const char *scene_path(const struct gn_settings *o, int scene) {
-    return scene > 0 && !is_of_mode(o) ? o->scene.list.paths[scene] : o->scene.path;
+    const bool is_own = gn_settings_from(o, scene.path) == GN_SOURCE_MODE;
+    return scene > 0 && !is_own ? o->scene.list.paths[scene] : o->scene.path;
 }
 
 /* file: as in gn_show_config. */

@@ -60,9 +60,8 @@ static void recall_mode(const struct gn_show *s, struct gn_options *o) {
     const struct gn_settings *base = &o->all[0];
     const int found = gn_options_find_mode(o, mode);
     if (!mode[0] || o->settings->run.mode || o->is_lesson) return;
-    if (o->mode_count == 0 &&
-        (gn_settings_source(base, offsetof(struct gn_settings, render.shadow)) == GN_SOURCE_FLAG ||
-         strcmp(mode, gn_techniques[base->render.shadow.items[0]].name) == 0))
+    if (o->mode_count == 0 && (gn_settings_from(base, render.shadow) == GN_SOURCE_FLAG ||
+                               strcmp(mode, gn_techniques[base->render.shadow.items[0]].name) == 0))
         return;
     if (found)
         o->settings = &o->all[found];
@@ -81,8 +80,7 @@ static int list_place(const struct gn_options *o, const char *path) {
 
 static void recall_scene(struct gn_show *s, struct gn_options *o) {
     const struct gn_state *found = &memory_of(s)->state;
-    const enum gn_source source =
-        gn_settings_source(&o->all[0], offsetof(struct gn_settings, scene.path));
+    const enum gn_source source = gn_settings_from(&o->all[0], scene.path);
     if (!found->scene[0] || source == GN_SOURCE_FLAG || o->is_lesson) return;
     if (!found->given) {
         s->first.scene = list_place(o, found->listed[0] ? found->listed : found->scene);
@@ -96,8 +94,9 @@ static void recall_scene(struct gn_show *s, struct gn_options *o) {
     }
 }
 
-static void recall(struct gn_show *s) {
-    struct memory *m = memory_of(s);
+static void begin_state(void *part) {
+    struct memory *m = part;
+    struct gn_show *s = m->host->show;
     struct gn_options *o = s->config.options;
     const char *path = o->settings->kiosk.state;
     struct gn_err err = {0};
@@ -163,25 +162,14 @@ static void set_due(struct memory *m, int64_t now_ns) {
         m->timer.due_ns = m->saved_ns > 0 && rested_ns > settled_ns ? rested_ns : settled_ns;
 }
 
-static void report_failure(struct gn_show *s, const struct gn_err *err) {
+static void report_failure(const struct memory *m, const struct gn_err *err) {
     char text[sizeof err->text + 64];
     snprintf(text, sizeof text, "state: %s (it will not outlast a restart)", err->text);
-    gn_problem_report(&s->problems, GN_PROBLEM_STATE, text);
-}
-
-static void end_save(struct gn_show *s, bool ok, const struct gn_err *err, int64_t now_ns) {
-    struct memory *m = memory_of(s);
-    if (ok)
-        gn_problem_cure(&s->problems, GN_PROBLEM_STATE);
-    else
-        report_failure(s, err);
-    m->changed |= !ok;
-    set_due(m, now_ns);
+    gn_problem_report(m->host->problems, GN_PROBLEM_STATE, text);
 }
 
 static void begin_save(void *user, int64_t now_ns) {
-    struct gn_show *s = user;
-    struct memory *m = memory_of(s);
+    struct memory *m = user;
     m->saved_ns = m->begun ? now_ns : 0; /* after the first there is no rest */
     m->begun = true;
     m->changed = false;
@@ -189,41 +177,46 @@ static void begin_save(void *user, int64_t now_ns) {
     gn_keeper_save(m->keeper, &m->state);
 }
 
-static void take_save(void *user, uint32_t events, int64_t now_ns) {
-    struct gn_show *s = user;
+static void take_save(void *user, int64_t now_ns) {
+    struct memory *m = user;
     struct gn_err err = {0};
     bool ok;
-    (void)events;
-    if (gn_keeper_take(memory_of(s)->keeper, &ok, &err)) end_save(s, ok, &err, now_ns);
+    if (!gn_keeper_take(m->keeper, &ok, &err)) return;
+    if (ok)
+        gn_problem_cure(m->host->problems, GN_PROBLEM_STATE);
+    else
+        report_failure(m, &err);
+    m->changed |= !ok;
+    set_due(m, now_ns);
 }
 
-static void open_memory(struct gn_show *s) {
-    struct memory *m = memory_of(s);
-    struct gn_err err = {0};
+static void open_state(void *part) {
+    struct memory *m = part;
+    struct gn_loop *loop = m->host->loop;
+    struct gn_err err = {0}, unused = {0};
     if (!m->path[0]) return;
     m->keeper = gn_keeper_open(&gn_disk, m->path, m->older, &err);
     m->done = (struct gn_watch){.fd = m->keeper ? gn_keeper_fd(m->keeper) : -1,
                                 .events = EPOLLIN,
                                 .call = take_save,
-                                .user = s};
-    if (m->keeper && gn_loop_add(s->loop, &m->done)) {
-        m->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = begin_save, .user = s};
-        gn_loop_add_timer(s->loop, &m->timer);
-        m->seen_ns = gn_loop_now_ns(s->loop);
-        m->timer.due_ns = m->seen_ns; /* that it runs: a crash in the first seconds counts, too */
+                                .user = m};
+    if (m->keeper && gn_loop_add(loop, &m->done)) {
+        m->seen_ns = gn_loop_now_ns(loop);
+        /* at once that it runs: a crash in the first seconds counts, too */
+        m->timer = (struct gn_timer){.due_ns = m->seen_ns, .call = begin_save, .user = m};
+        gn_loop_add_timer(loop, &m->timer);
         return;
     }
     if (m->keeper) gn_fail(&err, "%s: cannot wait for saves: %s", m->path, strerror(errno));
-    struct gn_err unused = {0};
     gn_keeper_close(m->keeper, 0, &unused);
     m->keeper = NULL;
-    report_failure(s, &err);
+    report_failure(m, &err);
 }
 
 /* ---- what is remembered ---------------------------------------------------------------------- */
 
-static void count(struct gn_show *s, int64_t now_ns) {
-    struct memory *m = memory_of(s);
+static void count(struct memory *m, int64_t now_ns) {
+    const struct gn_show *s = m->host->show;
     struct gn_state_counts *c = &m->state.counts;
     const uint64_t frames = s->counts.frames;
     if (s->screen.stage.display.screen.lit && !gn_kiosk_is_dark(&s->screen.kiosk))
@@ -244,8 +237,9 @@ static bool take_text(const char *text, char *out, size_t size) {
 }
 
 /* The scene of the configuration stays where another one is shown in its place. */
-static bool take_scene(struct gn_show *s) {
-    struct gn_state *state = &memory_of(s)->state;
+static bool take_scene(struct memory *m) {
+    const struct gn_show *s = m->host->show;
+    struct gn_state *state = &m->state;
     const char *path = s->scenes.paths[s->screen.scene];
     const bool given = s->config.file;
     char before[PATH_MAX];
@@ -260,48 +254,40 @@ static bool take_scene(struct gn_show *s) {
     return true;
 }
 
-static void remember(struct gn_show *s) {
-    struct memory *m = memory_of(s);
+static void look_at_state(void *part) {
+    struct memory *m = part;
+    const struct gn_show *s = m->host->show;
     const int64_t now_ns = gn_loop_now_ns(s->loop);
     if (!m->keeper) return;
-    count(s, now_ns);
+    count(m, now_ns);
     if (s->reload.first) return; /* nothing is shown yet */
     const bool other =
         take_text(s->modes.names[s->screen.kiosk.shown.mode], m->state.mode, sizeof m->state.mode);
-    if (!take_scene(s) && !other) return;
+    if (!take_scene(m) && !other) return;
     const bool waits = m->changed;
     m->changed = true;
     if (!waits && !gn_keeper_is_busy(m->keeper)) set_due(m, now_ns);
 }
 
-static void end_memory(struct gn_show *s) {
-    struct memory *m = memory_of(s);
+static void end_state(void *part) {
+    struct memory *m = part;
     if (!m->keeper) return;
-    remember(s);
-    m->state.runs = s->failed;
+    look_at_state(m);
+    m->state.runs = m->host->show->failed;
     m->state.sequence++;
     gn_keeper_save(m->keeper, &m->state);
     gn_loop_remove(&m->done);
     gn_loop_remove_timer(&m->timer);
 }
 
-static void close_memory(struct gn_show *s) {
+static void close_state(void *part) {
+    struct memory *m = part;
     struct gn_err err = {0};
-    if (!gn_keeper_close(memory_of(s)->keeper, END_NS, &err)) report_failure(s, &err);
-    memory_of(s)->keeper = NULL;
+    if (!gn_keeper_close(m->keeper, END_NS, &err)) report_failure(m, &err);
+    m->keeper = NULL;
 }
 
 /* ---- the part -------------------------------------------------------------------------------- */
-
-static struct gn_show *show_of(const void *part) {
-    return ((const struct memory *)part)->host->show;
-}
-
-static void begin_state(void *part) { recall(show_of(part)); }
-static void open_state(void *part) { open_memory(show_of(part)); }
-static void look_at_state(void *part) { remember(show_of(part)); }
-static void end_state(void *part) { end_memory(show_of(part)); }
-static void close_state(void *part) { close_memory(show_of(part)); }
 
 static const void *state_status(void *part) {
     return ((const struct memory *)part)->path[0] ? part : NULL;

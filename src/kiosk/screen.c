@@ -2,7 +2,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "core/clock.h"
 #include "core/stop.h"
 #include "kiosk/private.h"
 #include "options/value.h"

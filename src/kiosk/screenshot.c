@@ -18,7 +18,7 @@
 #include "image/write.h"
 
 struct gn_screenshot {
-    int done;                 /* an eventfd */
+    struct gn_watch done;     /* an eventfd */
     bool asked, runs, failed; /* at most one is true */
     pthread_t thread;
     char path[PATH_MAX];
@@ -85,12 +85,15 @@ bool gn_screenshot_permits(const char *path, int fd, const char *folder, char *t
     return true;
 }
 
-struct gn_screenshot *gn_screenshot_create(struct gn_err *err) {
+struct gn_screenshot *gn_screenshot_create(struct gn_loop *loop,
+                                           void (*call)(void *user, int64_t now_ns), void *user,
+                                           struct gn_err *err) {
     struct gn_screenshot *shot = gn_xalloc(1, sizeof *shot);
-    shot->done = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    if (shot->done >= 0) return shot;
+    const int fd = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    shot->done = (struct gn_watch){.fd = fd, .events = EPOLLIN, .call = call, .user = user};
+    if (fd >= 0 && gn_loop_add(loop, &shot->done)) return shot;
     gn_fail(err, "screenshots: cannot wait: %s", strerror(errno));
-    free(shot);
+    gn_screenshot_destroy(shot);
     return NULL;
 }
 
@@ -98,11 +101,10 @@ void gn_screenshot_destroy(struct gn_screenshot *shot) {
     if (!shot) return;
     if (shot->runs) pthread_join(shot->thread, NULL);
     free(shot->rgba);
-    close(shot->done);
+    gn_loop_remove(&shot->done);
+    if (shot->done.fd >= 0) close(shot->done.fd);
     free(shot);
 }
-
-int gn_screenshot_fd(const struct gn_screenshot *shot) { return shot->done; }
 
 void gn_screenshot_ask(struct gn_screenshot *shot, const char *path, int fd) {
     shot->fd = fd;
@@ -141,7 +143,7 @@ static size_t pixel_index(const struct gn_screenshot *s, uint32_t u, uint32_t v)
 
 static void signal_done(const struct gn_screenshot *shot) {
     const uint64_t one = 1;
-    if (write(shot->done, &one, sizeof one) < 0) abort(); /* cannot overflow */
+    if (write(shot->done.fd, &one, sizeof one) < 0) abort(); /* cannot overflow */
 }
 
 static bool write_memory(int fd, const struct gn_bytes *png, struct gn_err *err) {
@@ -211,7 +213,7 @@ void gn_screenshot_fail(struct gn_screenshot *shot, const struct gn_err *err) {
 
 bool gn_screenshot_take(struct gn_screenshot *shot, bool *ok, struct gn_err *err) {
     uint64_t count;
-    if ((!shot->runs && !shot->failed) || read(shot->done, &count, sizeof count) != sizeof count)
+    if ((!shot->runs && !shot->failed) || read(shot->done.fd, &count, sizeof count) != sizeof count)
         return false;
     if (shot->runs) pthread_join(shot->thread, NULL);
     shot->runs = shot->failed = false;

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "core/err.h"
+#include "core/loop.h"
 
 /* For the client: may a picture be written there? An absolute path that ends in .png; there is a
  * regular file or nothing. */
@@ -19,9 +19,11 @@ bool gn_screenshot_permits(const char *path, int fd, const char *folder, char *t
                            struct gn_err *err);
 
 struct gn_screenshot;
-struct gn_screenshot *gn_screenshot_create(struct gn_err *err);
+/* call: when one can be taken. NULL: fails. */
+struct gn_screenshot *gn_screenshot_create(struct gn_loop *loop,
+                                           void (*call)(void *user, int64_t now_ns), void *user,
+                                           struct gn_err *err);
 void gn_screenshot_destroy(struct gn_screenshot *shot); /* waits for the thread; NULL is legal */
-int gn_screenshot_fd(const struct gn_screenshot *shot); /* readable when one can be taken */
 
 /* The next frame is to be written into fd, which stays the caller's and open until it is done, or
  * (-1) to the path, which is copied. Not while another one is under way. */

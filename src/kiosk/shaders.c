@@ -19,10 +19,9 @@ struct shaders {
     bool changed;          /* set then */
 };
 
-static void take_event(void *user, uint32_t events, int64_t now_ns) {
+static void take_event(void *user, int64_t now_ns) {
     struct shaders *s = user;
     char buffer[4096] __attribute__((aligned(__alignof__(struct inotify_event))));
-    (void)events;
     while (read(s->watch.fd, buffer, sizeof buffer) > 0) s->timer.due_ns = now_ns + MOMENT_NS;
 }
 

@@ -35,15 +35,13 @@ bool gn_show_take_events(struct gn_show_screen *s, struct gn_err *err) {
 
 /* Timeouts; then what follows from the state for the display. */
 bool gn_show_step_machine(struct gn_show_screen *s, struct gn_err *err) {
-    const struct gn_kiosk_event tick = {.kind = GN_KIOSK_TICK,
-                                        .time_ns = gn_loop_now_ns(s->show->loop)};
+    const int64_t now_ns = gn_loop_now_ns(s->show->loop);
     const uint32_t idled = s->kiosk.idled;
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &tick);
+    gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_TICK, .time_ns = now_ns});
     if (s->kiosk.idled != idled) gn_show_turn_home(s);
     gn_show_suppress_taps(s);
     const bool off = s->kiosk.blanked || (gn_kiosk_is_dark(&s->kiosk) && !s->rules.sleeps_black);
-    if (off != s->stage.display.screen.blank)
-        gn_display_blank(&s->stage.display, off, tick.time_ns);
+    if (off != s->stage.display.screen.blank) gn_display_blank(&s->stage.display, off, now_ns);
     return gn_show_keep_context(s, err);
 }
 

@@ -16,9 +16,8 @@ struct television {
     const char *wanted, *told, *waits; /* for the status */
 };
 
-static void take_state(void *user, uint32_t events, int64_t now_ns) {
+static void take_state(void *user, int64_t now_ns) {
     struct television *t = user;
-    (void)events;
     (void)now_ns;
     gn_television_read(t->thread, &t->state);
     if (t->state.problem[0])

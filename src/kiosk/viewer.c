@@ -2,13 +2,12 @@
 #include "kiosk/viewer.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "core/clock.h"
+#include "core/text.h"
 #include "kiosk/private.h"
 #include "options/command.h"
 #include "options/viewer_keys.h"
@@ -20,31 +19,27 @@ static const float TURN_PER_S = 0.5f;
 /* ---- the help page ---- */
 
 /* Keys of a button but those that the viewer takes first. */
-static size_t add_button(const struct gn_button_config *button, char *out, size_t size) {
-    size_t used = 0;
+static void add_button(const struct gn_button_config *button, char *out, size_t size) {
+    const char *comma = "";
+    char name[40];
     int place;
-    for (const char *at = button->opts.keys; at && *at && used < size;) {
-        const int length = (int)strcspn(at, " ");
-        char name[40];
-        snprintf(name, sizeof name, "%.*s", length, at);
+    for (const char *at = button->opts.keys; at && gn_text_word(&at, name, sizeof name);) {
         const unsigned key = gn_key_find(name); /* a window has no taps */
-        if (key != GN_KEY_TAP && !gn_viewer_key_find(key, &place))
-            used += (size_t)snprintf(out + used, size - used, "%s%s", used ? ", " : "", name);
-        at += length + (int)strspn(at + length, " ");
+        if (key == GN_KEY_TAP || gn_viewer_key_find(key, &place)) continue;
+        gn_text_add(out, size, "%s%s", comma, name);
+        comma = ", ";
     }
     const int command = gn_ctl_find(gn_action_name(button->on[GN_GESTURE_PRESS].action.kind));
-    if (used > 0 && used < size)
-        used += (size_t)snprintf(out + used, size - used, ": %s\n",
-                                 command >= 0 ? gn_ctl_rows[command].what : "another action");
-    return used < size ? used : size - 1;
+    if (*comma)
+        gn_text_add(out, size, ": %s\n",
+                    command >= 0 ? gn_ctl_rows[command].what : "another action");
 }
 
 static void write_help(const struct gn_show_screen *s, char *out, size_t size) {
-    size_t used = 0;
-    for (const struct gn_viewer_key *row = gn_viewer_keys; row->name && used + 1 < size; row++)
-        used += (size_t)snprintf(out + used, size - used, "%s: %s\n", row->name, row->meaning);
-    for (int i = 0; i < s->show->buttons.map.count && used + 1 < size; i++)
-        used += add_button(&s->show->buttons.map.items[i], out + used, size - used);
+    for (const struct gn_viewer_key *row = gn_viewer_keys; row->name; row++)
+        gn_text_add(out, size, "%s: %s\n", row->name, row->meaning);
+    for (int i = 0; i < s->show->buttons.map.count; i++)
+        add_button(&s->show->buttons.map.items[i], out, size);
 }
 
 static void show_help(struct gn_show_screen *s, bool on) {
@@ -59,20 +54,15 @@ static void show_help(struct gn_show_screen *s, bool on) {
 static void choose_camera(struct gn_show_screen *s, int number) {
     const uint32_t count = s->stage.scene->camera_count, place = (uint32_t)number;
     const struct gn_frame_opts *look = &s->looks.of[s->kiosk.shown.mode].frame_opts;
-    const struct gn_kiosk_event event = {
-        .kind = GN_KIOSK_CAMERA,
-        .time_ns = gn_loop_now_ns(s->show->loop),
-        .camera = (place + count - (uint32_t)look->view.camera % count) % count};
+    const uint32_t camera = (place + count - (uint32_t)look->view.camera % count) % count;
     if (place < count)
-        s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+        gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_CAMERA, .camera = camera});
     else
         gn_show_note(s, "the scene has %u camera%s", count, count == 1 ? "" : "s");
 }
 
 static void change_speed(struct gn_show_screen *s, int by) {
-    const struct gn_kiosk_event event = {
-        .kind = GN_KIOSK_SPEED, .time_ns = gn_loop_now_ns(s->show->loop), .by = by};
-    s->kiosk = gn_kiosk_step(&s->rules, &s->kiosk, &event);
+    gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = by});
     if (s->kiosk.speed >= 0)
         gn_show_note(s, "speed %d", 1 << s->kiosk.speed);
     else
@@ -111,11 +101,11 @@ static void choose_clip(struct gn_show_screen *s) {
 
 /* ---- screenshots ---- */
 
-static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
+static void finish_screenshot(void *user, int64_t now_ns) {
     struct gn_show_screen *s = user;
     struct gn_err err = {0};
     bool ok;
-    (void)events, (void)now_ns;
+    (void)now_ns;
     if (!gn_screenshot_take(s->viewer.screenshot, &ok, &err)) return;
     if (ok)
         gn_show_note(s, "wrote %s", s->viewer.screenshot_path);
@@ -138,24 +128,13 @@ static bool choose_path(const struct gn_show_screen *s, char *path, size_t size)
     return false;
 }
 
-static bool open_screenshot(struct gn_show_screen *s, struct gn_err *err) {
-    struct gn_show_viewer *v = &s->viewer;
-    if (v->screenshot) return true;
-    v->screenshot = gn_screenshot_create(err);
-    if (!v->screenshot) return false;
-    v->screenshot_done = (struct gn_watch){.fd = gn_screenshot_fd(v->screenshot),
-                                           .events = EPOLLIN,
-                                           .call = finish_screenshot,
-                                           .user = s};
-    return gn_loop_add(s->show->loop, &v->screenshot_done) ||
-           gn_fail(err, "screenshot: %s", strerror(errno));
-}
-
 static void write_screenshot(struct gn_show_screen *s) {
     struct gn_show_viewer *v = &s->viewer;
     struct gn_err err = {0};
     if (v->screenshot && gn_screenshot_is_busy(v->screenshot)) return;
-    if (!open_screenshot(s, &err)) {
+    if (!v->screenshot)
+        v->screenshot = gn_screenshot_create(s->show->loop, finish_screenshot, s, &err);
+    if (!v->screenshot) {
         gn_show_note(s, "%s", err.text);
     } else if (!choose_path(s, v->screenshot_path, sizeof v->screenshot_path)) {
         gn_show_note(s, "screenshot: this folder has 999 of this scene, or cannot be read");
@@ -261,7 +240,6 @@ void gn_viewer_set_title(struct gn_show_screen *s) {
 }
 
 void gn_viewer_close(struct gn_show_screen *s) {
-    gn_loop_remove(&s->viewer.screenshot_done);
     gn_screenshot_destroy(s->viewer.screenshot);
     s->viewer.screenshot = NULL;
 }

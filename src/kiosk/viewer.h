@@ -2,7 +2,6 @@
 #ifndef GN_KIOSK_VIEWER_H
 #define GN_KIOSK_VIEWER_H
 
-#include "core/loop.h"
 #include "display/pointer.h"
 #include "kiosk/screenshot.h"
 
@@ -15,7 +14,6 @@ struct gn_show_viewer { /* zeroed: not a window, or no key yet */
     char note[300];     /* text of GN_KIOSK_CAPTION_NOTE */
     char title[200];
     struct gn_screenshot *screenshot; /* NULL: none yet */
-    struct gn_watch screenshot_done;
     char screenshot_path[400];
 };
 

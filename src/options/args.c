@@ -263,10 +263,9 @@ static bool apply_flags(struct args *args, struct gn_err *err) {
 static bool check_animation(const struct gn_settings *s, struct gn_warnings *warnings,
                             struct gn_err *err) {
     const char *clip = s->scene.animation;
-    const enum gn_source source =
-        gn_settings_source(s, offsetof(struct gn_settings, scene.animation));
+    const enum gn_source source = gn_settings_from(s, scene.animation);
     if (!clip || !s->scene.no_animation || strcmp(clip, "none") == 0 ||
-        source != gn_settings_source(s, offsetof(struct gn_settings, scene.no_animation)))
+        source != gn_settings_from(s, scene.no_animation))
         return true;
     if (source == GN_SOURCE_FLAG)
         return gn_fail_usage(err, "--animation %s and --no-animation exclude each other: drop one",

@@ -1,6 +1,5 @@
 #include "options/buttons.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "core/text.h"

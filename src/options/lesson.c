@@ -52,40 +52,37 @@ const struct gn_lesson *gn_lesson_find(const char *name, struct gn_err *err) {
     return NULL;
 }
 
-static size_t add_flags(const char *set, char *out, size_t size, size_t used) {
-    while (set && *set && used < size) {
+static void add_flags(const char *set, char *out, size_t size) {
+    while (set && *set) {
         const size_t line = strcspn(set, "\n"), key = strcspn(set, " =");
         const char *value = set + key + strspn(set + key, " =");
-        const size_t from = used;
-        used += (size_t)snprintf(out + used, size - used, " --%.*s %.*s", (int)key, set,
-                                 (int)(set + line - value), value);
-        for (size_t i = from; i <= from + key + 2 && i < size; i++)
-            if (out[i] == '_') out[i] = '-';
+        char *flag = out + strlen(out);
+        gn_text_add(out, size, " --%.*s %.*s", (int)key, set, (int)(set + line - value), value);
+        for (size_t i = 0; i <= key + 2 && flag[i]; i++)
+            if (flag[i] == '_') flag[i] = '-';
         set += line + (set[line] == '\n');
     }
-    return used;
 }
 
 void gn_lesson_flags(const struct gn_lesson *lesson, int step, char *out, size_t size) {
     out[0] = '\0';
-    add_flags(lesson->steps[step].set, out, size, add_flags(lesson->set, out, size, 0));
+    add_flags(lesson->set, out, size);
+    add_flags(lesson->steps[step].set, out, size);
 }
 
 bool gn_lesson_load(struct gn_options *options, const struct gn_lesson *lesson,
                     struct gn_err *err) {
     char text[4000], name[80];
     const char *set = lesson->set;
-    size_t used = (size_t)snprintf(text, sizeof text,
-                                   "[kiosk]\ncaption_seconds = 6\n[scene]\nfile = " GN_SCENE_LESSON
-                                   "%s\n[render]\n%s\n",
-                                   lesson->scene, set ? set : "");
-    for (int i = 0; i < gn_lesson_steps(lesson) && used < sizeof text; i++) {
+    snprintf(text, sizeof text,
+             "[kiosk]\ncaption_seconds = 6\n[scene]\nfile = " GN_SCENE_LESSON "%s\n[render]\n%s\n",
+             lesson->scene, set ? set : "");
+    for (int i = 0; i < gn_lesson_steps(lesson); i++) {
         set = lesson->steps[i].set;
-        used += (size_t)snprintf(text + used, sizeof text - used, "[mode \"%s\"]\n%s\n",
-                                 lesson->steps[i].name, set ? set : "");
+        gn_text_add(text, sizeof text, "[mode \"%s\"]\n%s\n", lesson->steps[i].name,
+                    set ? set : "");
     }
     options->is_lesson = true;
     snprintf(name, sizeof name, "lesson %s", lesson->name);
-    return gn_config_load_text(options, name, text, used < sizeof text ? used : sizeof text - 1,
-                               err);
+    return gn_config_load_text(options, name, text, strlen(text), err);
 }

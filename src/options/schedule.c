@@ -4,6 +4,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "core/text.h"
+
 enum { DAY_MIN = 1440, DAYS = 7 };
 static const int64_t DAY_S = 86400;
 static const char names[DAYS][4] = {"sun", "mon", "tue", "wed", "thu", "fri", "sat"};
@@ -83,19 +85,18 @@ bool gn_schedule_parse(const char *text, const char *without, struct gn_schedule
 
 void gn_schedule_text(const struct gn_schedule *schedule, const char *without, char *out,
                       size_t size) {
-    size_t used = (size_t)snprintf(out, size, "%s", schedule->count ? "" : without);
+    snprintf(out, size, "%s", schedule->count ? "" : without);
     for (int i = 0; i < schedule->count; i++) {
         const struct gn_schedule_span *span = &schedule->spans[i];
-        for (int day = 1; day <= DAYS && used < size; day++)
-            if (span->days != 0x7f && span->days >> day % DAYS & 1)
-                used +=
-                    (size_t)snprintf(out + used, size - used, "%s%s",
-                                     used && out[used - 1] != ' ' ? "," : "", names[day % DAYS]);
-        if (used < size)
-            used += (size_t)snprintf(out + used, size - used, "%s%02d:%02d-%02d:%02d%s",
-                                     span->days != 0x7f ? " " : "", span->from_min / 60,
-                                     span->from_min % 60, span->to_min / 60, span->to_min % 60,
-                                     i + 1 < schedule->count ? ", " : "");
+        const char *comma = "";
+        for (int day = 1; day <= DAYS && span->days != 0x7f; day++) {
+            if (!(span->days >> day % DAYS & 1)) continue;
+            gn_text_add(out, size, "%s%s", comma, names[day % DAYS]);
+            comma = ",";
+        }
+        gn_text_add(out, size, "%s%02d:%02d-%02d:%02d%s", span->days != 0x7f ? " " : "",
+                    span->from_min / 60, span->from_min % 60, span->to_min / 60, span->to_min % 60,
+                    i + 1 < schedule->count ? ", " : "");
     }
 }
 

@@ -221,9 +221,10 @@ const void *gn_settings_value(const struct gn_settings *settings, const struct g
 void gn_settings_text(const struct gn_settings *settings, const struct gn_option_row *row,
                       char *out, size_t size);
 
-/* The source of a field's value: gn_settings_source(s, offsetof(struct gn_settings,
- * render.shadow)). */
+/* The source of a field's value: gn_settings_from(s, render.shadow). */
 enum gn_source gn_settings_source(const struct gn_settings *settings, size_t offset);
+#define gn_settings_from(settings, field)                                                          \
+    gn_settings_source(settings, offsetof(struct gn_settings, field))
 /* The name of a field in messages, by its source: "--camera", "kiosk.ini:9: camera". */
 const char *gn_settings_label_at(const struct gn_settings *settings, size_t offset);
 #define gn_settings_label(settings, field)                                                         \
@@ -233,7 +234,6 @@ const char *gn_settings_label_at(const struct gn_settings *settings, size_t offs
  * [light] are of the made light (stage/lights.h). */
 bool gn_settings_light_holds(const struct gn_settings *settings,
                              const struct gn_override *override);
-#define gn_settings_given(settings, field)                                                         \
-    (gn_settings_source(settings, offsetof(struct gn_settings, field)) != GN_SOURCE_DEFAULT)
+#define gn_settings_given(settings, field) (gn_settings_from(settings, field) != GN_SOURCE_DEFAULT)
 
 #endif

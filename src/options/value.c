@@ -26,7 +26,8 @@ bool gn_parse_int(const char *text, int64_t *out) {
     return errno == 0;
 }
 
-bool gn_parse_number(const char *text, double *out) {
+/* Likewise, and without inf and nan. */
+static bool read_number(const char *text, double *out) {
     char *end;
     if (!text[0] || text[strspn(text, "+-.0123456789eE")] || !strpbrk(text, "0123456789"))
         return false;
@@ -83,7 +84,7 @@ static void print_ms(const void *field, const struct gn_kind_output *to) {
 
 static bool parse_one_number(const struct gn_option_row *row, const char *text, double *field) {
     double value;
-    if (!gn_parse_number(text, &value) || !is_in_range(row, value)) return false;
+    if (!read_number(text, &value) || !is_in_range(row, value)) return false;
     *field = value;
     return true;
 }
@@ -179,8 +180,7 @@ static bool parse_mode(struct gn_kind_input *in, void *field) {
     double hz = 0;
     const char *rest = parse_sides(in, &sides);
     if (!rest) return false;
-    if (*rest && (*rest != '@' || !gn_parse_number(rest + 1, &hz) || hz < 1 || hz > 1000))
-        return false;
+    if (*rest && (*rest != '@' || !read_number(rest + 1, &hz) || hz < 1 || hz > 1000)) return false;
     *(struct gn_display_mode *)field =
         (struct gn_display_mode){sides.width_px, sides.height_px, hz};
     return true;
@@ -451,7 +451,8 @@ void gn_value_text(const struct gn_option_row *row, const void *field, char *out
     kinds[row->kind].print(field, &(struct gn_kind_output){row, out, size});
 }
 
-void gn_value_expected(const struct gn_option_row *row, char *out, size_t size) {
+/* "a whole number from 16 to 16384" */
+static void print_expected(const struct gn_option_row *row, char *out, size_t size) {
     const struct kind *kind = &kinds[row->kind];
     out[0] = '\0';
     if (kind->expected)
@@ -475,7 +476,7 @@ bool gn_value_parse(const struct gn_option_row *row, const char *text, void *fie
     const char *word;
     for (int i = 0; (word = gn_value_word(row, i)); i++)
         gn_text_guess(&guess, row->choices ? text : wrong, word);
-    gn_value_expected(row, expected, sizeof expected);
+    print_expected(row, expected, sizeof expected);
     return gn_fail_usage(err, "%s: \"%.80s\" is not %s%s%s%s", label, text, expected,
                          guess.name ? "; did you mean " : "", guess.name ? guess.name : "",
                          guess.name ? "?" : "");

@@ -28,11 +28,7 @@ bool gn_value_shared(const struct gn_option_row *row, const void *a, const void 
 /* Whether two fields have the same value. Not for limits and lists of scenes. */
 bool gn_value_same(const struct gn_option_row *row, const void *a, const void *b);
 
-/* "a whole number from 16 to 16384" */
-void gn_value_expected(const struct gn_option_row *row, char *out, size_t size);
-
-/* Decimal numbers as in the C locale, all of text, without hex, inf, nan or leading space. */
+/* A decimal number as in the C locale, all of text, without hex or leading space. */
 bool gn_parse_int(const char *text, int64_t *out);
-bool gn_parse_number(const char *text, double *out);
 
 #endif

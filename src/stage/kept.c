@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool gn_kept_folder(char *out, size_t size) {
+static bool find_folder(char *out, size_t size) {
     const char *own = getenv("CACHE_DIRECTORY"), *base = getenv("XDG_CACHE_HOME"),
                *home = getenv("HOME");
     int length = -1;
@@ -23,7 +23,7 @@ bool gn_kept_folder(char *out, size_t size) {
 bool gn_kept_path(const struct gn_kept_kind *kind, uint64_t hash, size_t size,
                   char out[GN_KEPT_PATH]) {
     char folder[GN_KEPT_PATH - 100];
-    if (!gn_kept_folder(folder, sizeof folder)) return false;
+    if (!find_folder(folder, sizeof folder)) return false;
     snprintf(out, GN_KEPT_PATH, "%s/%s%016llx-%zu%s", folder, kind->prefix,
              (unsigned long long)hash, size, kind->suffix);
     return true;
@@ -66,7 +66,7 @@ void gn_kept_write(const struct gn_kept_kind *kind, const char *path, const void
                    size_t size) {
     struct gn_err unused = {0};
     char folder[GN_KEPT_PATH], parent[GN_KEPT_PATH];
-    if (size > kind->bytes_max || !gn_kept_folder(folder, sizeof folder)) return;
+    if (size > kind->bytes_max || !find_folder(folder, sizeof folder)) return;
     snprintf(parent, sizeof parent, "%s", folder);
     char *slash = strrchr(parent, '/');
     if (slash && slash > parent) *slash = '\0';

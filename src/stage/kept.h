@@ -17,11 +17,8 @@ struct gn_kept_kind {
     size_t bytes_max;            /* of one file; larger ones are not kept */
 };
 
-/* The folder: $CACHE_DIRECTORY, else gnomon in $XDG_CACHE_HOME or in .cache of $HOME; false: there
- * is none. */
-bool gn_kept_folder(char *out, size_t size);
-/* Where what is made of a content is kept: of hash and size, both part of the name. False: nowhere.
- */
+/* Where what is made of a content is kept, of hash and size, both part of the name: in
+ * $CACHE_DIRECTORY, else gnomon in $XDG_CACHE_HOME or in .cache of $HOME. False: nowhere. */
 bool gn_kept_path(const struct gn_kept_kind *kind, uint64_t hash, size_t size,
                   char out[GN_KEPT_PATH]);
 /* Makes the folder where it is missing. Fails silently: what cannot be kept is made again. */

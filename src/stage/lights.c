@@ -2,9 +2,9 @@
 
 #include <assert.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "options/value.h"
 
 bool gn_light_section_is_of(const struct gn_section *section, const struct gn_scene *scene,
@@ -87,10 +87,8 @@ static void set_all(struct gn_frame_shadow_opts *opts, const struct gn_settings 
 static void warn_of_name(const struct gn_section *section, const struct gn_scene *scene,
                          struct gn_warnings *warnings) {
     char names[120] = "";
-    size_t used = 0;
-    for (uint32_t i = 0; i < scene->light_count && used < sizeof names; i++)
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s\"%.40s\"", i ? ", " : "",
-                                 scene->lights[i].name);
+    for (uint32_t i = 0; i < scene->light_count; i++)
+        gn_text_add(names, sizeof names, "%s\"%.40s\"", i ? ", " : "", scene->lights[i].name);
     gn_warn(warnings, "%s: light \"%s\": the scene has none of that name; it has %s",
             section->label, section->name, names);
 }
@@ -177,13 +175,12 @@ bool gn_stage_keeps_key(const struct gn_frame_shadow_opts *opts, const struct gn
 
 void gn_stage_print_light(const struct gn_settings *settings, const struct gn_section *section,
                           char *out, size_t size) {
-    size_t used = 0;
     out[0] = '\0';
-    for (const struct gn_override *o = section->first; o && used < size; o = o->next) {
+    for (const struct gn_override *o = section->first; o; o = o->next) {
         char key[64], text[80];
         if (!gn_settings_light_holds(settings, o)) continue;
         gn_value_text(o->row, o->value, text, sizeof text);
-        used += (size_t)snprintf(out + used, size - used, "%s%s = %s", used ? ", " : "",
-                                 gn_option_key(o->row, key, sizeof key), text);
+        gn_text_add(out, size, "%s%s = %s", out[0] ? ", " : "",
+                    gn_option_key(o->row, key, sizeof key), text);
     }
 }

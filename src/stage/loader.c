@@ -25,7 +25,7 @@ struct gn_loader {
     atomic_uint permille; /* done */
 };
 
-void gn_loaded_destroy(struct gn_loaded *loaded) {
+static void destroy_loaded(struct gn_loaded *loaded) {
     if (!loaded) return;
     gn_pose_finish(&loaded->pose);
     gn_scene_destroy(loaded->scene);
@@ -34,13 +34,13 @@ void gn_loaded_destroy(struct gn_loaded *loaded) {
 
 static void *destroy_in_thread(void *argument) {
     gn_thread_lower_priority();
-    gn_loaded_destroy(argument);
+    destroy_loaded(argument);
     return NULL;
 }
 
 void gn_loaded_drop(struct gn_loaded *loaded) {
     if (loaded && (!loaded->scene || gn_thread_start_detached(destroy_in_thread, loaded) != 0))
-        gn_loaded_destroy(loaded);
+        destroy_loaded(loaded);
 }
 
 static void load(struct gn_loader *loader) {
@@ -61,7 +61,7 @@ static void *run_loader(void *argument) {
             load(loader);
         else
             gn_worker_wait(&loader->worker, INT64_MAX);
-    gn_loaded_destroy(loader->loaded);
+    destroy_loaded(loader->loaded);
     free(loader->path);
     gn_worker_leave(&loader->worker);
     return NULL;

@@ -29,8 +29,7 @@ void gn_loader_start(struct gn_loader *loader, int number, const char *path,
 void gn_loader_cancel(struct gn_loader *loader);
 /* The loaded scene, owned by the caller; NULL: not done yet, or it was cancelled. */
 struct gn_loaded *gn_loader_take(struct gn_loader *loader);
-void gn_loaded_destroy(struct gn_loaded *loaded); /* NULL is legal */
-/* The same in a thread, for a loop that waits for nothing: to free a large scene takes long. */
+/* Frees it, or NULL, in a thread, for a loop that waits for nothing: a large scene takes long. */
 void gn_loaded_drop(struct gn_loaded *loaded);
 /* Does not wait: a thread that still loads is cancelled and frees its scene. */
 void gn_loader_close(struct gn_loader *loader);

@@ -173,7 +173,6 @@ static void copy_pose(struct gn_rays *rays, const struct gn_pose *pose) {
     rays->own_pose.at = pose->at;
     rays->own_pose.at.fade = 1; /* it has not kept what that fades from */
     gn_pose_step(&rays->own_pose, pose->at.time_ns);
-    if (pose->aimed) gn_pose_aim(&rays->own_pose, pose->aim_ws);
     rays->pose = &rays->own_pose;
 }
 

@@ -60,8 +60,7 @@ struct gn_scene_limits gn_stage_limits(const struct gn_settings *settings) {
 }
 
 void gn_stage_name_source(const struct gn_settings *settings, struct gn_err *err) {
-    const size_t offset = offsetof(struct gn_settings, scene.path);
-    if (settings->scene.path && gn_settings_source(settings, offset) != GN_SOURCE_FLAG)
+    if (settings->scene.path && gn_settings_from(settings, scene.path) != GN_SOURCE_FLAG)
         gn_fail_prefix(err, "%s", gn_settings_label(settings, scene.path));
 }
 

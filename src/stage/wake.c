@@ -1,7 +1,6 @@
 #include "stage/wake.h"
 
 #include <signal.h>
-#include <stdio.h>
 #include <unistd.h>
 
 #include "core/quiet.h"

@@ -17,7 +17,7 @@
 enum { SIM_CARDS = 2, SIM_CONNECTORS = 2, SIM_CRTCS = 2, SIM_MODES = 4, SIM_BROKEN = 4 };
 
 enum sim_op { /* operations that are counted and can be made to fail */
-#define X(function, name) SIM_##name,
+#define X(name) SIM_##name,
               GN_DRM_TABLE(X)
 #undef X
                   SIM_list,

@@ -27,7 +27,7 @@ void sim_call_reset(void) {
 /* ---- faults ---- */
 
 static const char *const op_names[SIM_OPS] = {
-#define X(function, name) [SIM_##name] = #function,
+#define X(name) [SIM_##name] = "drm" #name,
     GN_DRM_TABLE(X)
 #undef X
         [SIM_list] = "readdir",

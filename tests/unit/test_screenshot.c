@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <math.h>
-#include <poll.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/clock.h"
 #include "core/file.h"
 #include "image/picture.h"
 #include "kiosk/screenshot.h"
@@ -20,6 +20,8 @@
 static char folder[] = "/tmp/gnomon-shot-XXXXXX", path[100];
 static struct gn_err err;
 static struct gn_screenshot *shot;
+static struct gn_loop *loop;
+static bool is_told; /* by the loop, that a screenshot can be taken */
 
 static const char *in_folder(const char *name) {
     snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -28,9 +30,10 @@ static const char *in_folder(const char *name) {
 
 /* Waits for the thread; what it says. */
 static bool finish(void) {
-    struct pollfd p = {.fd = gn_screenshot_fd(shot), .events = POLLIN};
     bool ok = false;
-    assert_int_equal(poll(&p, 1, 10000), 1);
+    is_told = false;
+    gn_loop_step(loop, gn_loop_now_ns(loop) + 10 * GN_NS_PER_S);
+    assert_true(is_told);
     assert_true(gn_screenshot_take(shot, &ok, &err));
     return ok;
 }
@@ -255,16 +258,23 @@ static void what_fails_is_taken_with_its_reason(void **state) {
     assert_true(gn_screenshot_start(shot, &err)); /* the end waits for it */
 }
 
+static void note_told(void *user, int64_t now_ns) {
+    (void)now_ns;
+    *(bool *)user = true;
+}
+
 static int begin(void **state) {
     (void)state;
     err = (struct gn_err){0};
-    shot = gn_screenshot_create(&err);
+    loop = gn_loop_open(&err);
+    shot = loop ? gn_screenshot_create(loop, note_told, &is_told, &err) : NULL;
     return shot ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
     gn_screenshot_destroy(shot);
+    gn_loop_close(loop);
     return 0;
 }
 

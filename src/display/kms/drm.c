@@ -88,10 +88,10 @@ const struct gn_drm_ops *gn_drm_real(struct gn_err *err) {
     if (loaded) return &ops;
     void *library = gn_library_open("libdrm.so.2", "libdrm2", err);
     if (!library) return NULL;
-#define X(function, name)                                                                          \
-    *(void **)&ops.name = dlsym(library, #function);                                               \
+#define X(name)                                                                                    \
+    *(void **)&ops.name = dlsym(library, "drm" #name);                                             \
     if (!ops.name) {                                                                               \
-        gn_fail(err, "libdrm.so.2 has no " #function "; install libdrm2");                         \
+        gn_fail(err, "libdrm.so.2 has no drm" #name "; install libdrm2");                          \
         return NULL;                                                                               \
     }
     GN_DRM_TABLE(X)

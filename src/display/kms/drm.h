@@ -13,50 +13,20 @@
 
 #include "core/err.h"
 
-/* A libdrm function that frees an object precedes the one that returns it. */
-#define GN_DRM_TABLE(X)                                                                            \
-    X(drmGetVersion, GetVersion)                                                                   \
-    X(drmFreeVersion, FreeVersion)                                                                 \
-    X(drmGetCap, GetCap)                                                                           \
-    X(drmSetClientCap, SetClientCap)                                                               \
-    X(drmIsMaster, IsMaster)                                                                       \
-    X(drmSetMaster, SetMaster)                                                                     \
-    X(drmDropMaster, DropMaster)                                                                   \
-    X(drmHandleEvent, HandleEvent)                                                                 \
-    X(drmCrtcGetSequence, CrtcGetSequence)                                                         \
-    X(drmIoctl, Ioctl) /* dumb buffers, GEM_CLOSE */                                               \
-    X(drmModeGetResources, ModeGetResources)                                                       \
-    X(drmModeFreeResources, ModeFreeResources)                                                     \
-    X(drmModeGetConnector, ModeGetConnector)                                                       \
-    X(drmModeGetConnectorCurrent, ModeGetConnectorCurrent)                                         \
-    X(drmModeFreeConnector, ModeFreeConnector)                                                     \
-    X(drmModeGetEncoder, ModeGetEncoder)                                                           \
-    X(drmModeFreeEncoder, ModeFreeEncoder)                                                         \
-    X(drmModeGetCrtc, ModeGetCrtc)                                                                 \
-    X(drmModeFreeCrtc, ModeFreeCrtc)                                                               \
-    X(drmModeSetCrtc, ModeSetCrtc)                                                                 \
-    X(drmModeSetCursor, ModeSetCursor)                                                             \
-    X(drmModePageFlip, ModePageFlip)                                                               \
-    X(drmModeGetPlaneResources, ModeGetPlaneResources)                                             \
-    X(drmModeFreePlaneResources, ModeFreePlaneResources)                                           \
-    X(drmModeGetPlane, ModeGetPlane)                                                               \
-    X(drmModeFreePlane, ModeFreePlane)                                                             \
-    X(drmModeObjectGetProperties, ModeObjectGetProperties)                                         \
-    X(drmModeFreeObjectProperties, ModeFreeObjectProperties)                                       \
-    X(drmModeGetProperty, ModeGetProperty)                                                         \
-    X(drmModeFreeProperty, ModeFreeProperty)                                                       \
-    X(drmModeGetPropertyBlob, ModeGetPropertyBlob)                                                 \
-    X(drmModeFreePropertyBlob, ModeFreePropertyBlob)                                               \
-    X(drmModeCreatePropertyBlob, ModeCreatePropertyBlob)                                           \
-    X(drmModeDestroyPropertyBlob, ModeDestroyPropertyBlob)                                         \
-    X(drmModeConnectorSetProperty, ModeConnectorSetProperty)                                       \
-    X(drmModeAtomicAlloc, ModeAtomicAlloc)                                                         \
-    X(drmModeAtomicFree, ModeAtomicFree)                                                           \
-    X(drmModeAtomicAddProperty, ModeAtomicAddProperty)                                             \
-    X(drmModeAtomicCommit, ModeAtomicCommit)                                                       \
-    X(drmModeAddFB2, ModeAddFB2)                                                                   \
-    X(drmModeAddFB2WithModifiers, ModeAddFB2WithModifiers)                                         \
-    X(drmModeRmFB, ModeRmFB)
+/* Without their "drm". Ioctl is for dumb buffers and GEM_CLOSE. */
+/* clang-format off */
+#define GN_DRM_TABLE(X) \
+    X(GetVersion) X(FreeVersion) X(GetCap) X(SetClientCap) X(IsMaster) X(SetMaster) X(DropMaster) \
+    X(HandleEvent) X(CrtcGetSequence) X(Ioctl) X(ModeGetResources) X(ModeFreeResources) \
+    X(ModeGetConnector) X(ModeGetConnectorCurrent) X(ModeFreeConnector) X(ModeGetEncoder) \
+    X(ModeFreeEncoder) X(ModeGetCrtc) X(ModeFreeCrtc) X(ModeSetCrtc) X(ModeSetCursor) \
+    X(ModePageFlip) X(ModeGetPlaneResources) X(ModeFreePlaneResources) X(ModeGetPlane) \
+    X(ModeFreePlane) X(ModeObjectGetProperties) X(ModeFreeObjectProperties) X(ModeGetProperty) \
+    X(ModeFreeProperty) X(ModeGetPropertyBlob) X(ModeFreePropertyBlob) X(ModeCreatePropertyBlob) \
+    X(ModeDestroyPropertyBlob) X(ModeConnectorSetProperty) X(ModeAtomicAlloc) X(ModeAtomicFree) \
+    X(ModeAtomicAddProperty) X(ModeAtomicCommit) X(ModeAddFB2) X(ModeAddFB2WithModifiers) \
+    X(ModeRmFB)
+/* clang-format on */
 
 enum { GN_KMS_CARDS_MAX = 8 };
 
@@ -67,7 +37,7 @@ struct gn_kms_node {
 
 struct gn_drm_ops {
 /* NOLINTNEXTLINE(bugprone-macro-parentheses): a type and a name */
-#define X(function, name) __typeof__(function) *name;
+#define X(name) __typeof__(drm##name) *name;
     GN_DRM_TABLE(X)
 #undef X
     /* Lists all primary nodes; writes at most `most`, returns the count. */

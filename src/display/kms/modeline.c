@@ -1,7 +1,6 @@
 /* Refresh rate of a mode; modes from modelines and CVT. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "display/kms/card.h"

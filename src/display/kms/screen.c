@@ -23,15 +23,15 @@ struct kms_screen {
     unsigned events;               /* GN_KMS_EVENT_* since the last dispatch */
 };
 
-static void on_card(void *user, uint32_t events, int64_t now_ns) {
+static void on_card(void *user, int64_t now_ns) {
     struct kms_screen *s = user;
-    (void)events, (void)now_ns;
+    (void)now_ns;
     s->events |= GN_KMS_EVENT_READABLE;
 }
 
-static void on_uevent(void *user, uint32_t events, int64_t now_ns) {
+static void on_uevent(void *user, int64_t now_ns) {
     struct kms_screen *s = user;
-    (void)events, (void)now_ns;
+    (void)now_ns;
     if (gn_uevent_read(s->uevents.fd)) s->events |= GN_KMS_EVENT_HOTPLUG;
 }
 

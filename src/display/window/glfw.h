@@ -11,44 +11,18 @@
 
 #include "display/window/link.h"
 
-#define GLFW_TABLE(X)                                                                              \
-    X(Init)                                                                                        \
-    X(GetError)                                                                                    \
-    X(WindowHint)                                                                                  \
-    X(WindowHintString)                                                                            \
-    X(CreateWindow)                                                                                \
-    X(DestroyWindow)                                                                               \
-    X(ShowWindow)                                                                                  \
-    X(MakeContextCurrent)                                                                          \
-    X(SwapInterval)                                                                                \
-    X(SwapBuffers)                                                                                 \
-    X(PollEvents)                                                                                  \
-    X(GetProcAddress)                                                                              \
-    X(GetEGLDisplay)                                                                               \
-    X(GetEGLSurface)                                                                               \
-    X(GetFramebufferSize)                                                                          \
-    X(GetWindowSize)                                                                               \
-    X(SetWindowTitle)                                                                              \
-    X(SetWindowIcon)                                                                               \
-    X(SetWindowPos)                                                                                \
-    X(GetWindowPos)                                                                                \
-    X(GetWindowMonitor)                                                                            \
-    X(SetWindowMonitor)                                                                            \
-    X(GetMonitors)                                                                                 \
-    X(GetMonitorPos)                                                                               \
-    X(GetVideoMode)                                                                                \
-    X(SetWindowUserPointer)                                                                        \
-    X(GetWindowUserPointer)                                                                        \
-    X(SetWindowCloseCallback)                                                                      \
-    X(SetWindowRefreshCallback)                                                                    \
-    X(SetFramebufferSizeCallback)                                                                  \
-    X(SetWindowIconifyCallback)                                                                    \
-    X(SetKeyCallback)                                                                              \
-    X(SetCharCallback)                                                                             \
-    X(SetMouseButtonCallback)                                                                      \
-    X(SetCursorPosCallback)                                                                        \
-    X(SetScrollCallback)                                                                           \
+/* clang-format off */
+#define GLFW_TABLE(X) \
+    X(Init) X(GetError) X(WindowHint) X(WindowHintString) X(CreateWindow) X(DestroyWindow) \
+    X(ShowWindow) X(MakeContextCurrent) X(SwapInterval) X(SwapBuffers) X(PollEvents) \
+    X(GetProcAddress) X(GetEGLDisplay) X(GetEGLSurface) X(GetFramebufferSize) X(GetWindowSize) \
+    X(SetWindowTitle) X(SetWindowIcon) X(SetWindowPos) X(GetWindowPos) X(GetWindowMonitor) \
+    X(SetWindowMonitor) X(GetMonitors) X(GetMonitorPos) X(GetVideoMode) X(SetWindowUserPointer) \
+    X(GetWindowUserPointer) X(SetWindowCloseCallback) X(SetWindowRefreshCallback) \
+    X(SetFramebufferSizeCallback) X(SetWindowIconifyCallback) X(SetKeyCallback) \
+    X(SetCharCallback) X(SetMouseButtonCallback) X(SetCursorPosCallback) X(SetScrollCallback) \
     X(SetDropCallback)
+/* clang-format on */
 
 struct glfw {
     void *library;

@@ -1,12 +1,9 @@
 #include "kiosk/control/answer.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "core/arena.h"
 #include "core/clock.h"
 #include "kiosk/control/control.h"
 #include "kiosk/control/listen.h"
@@ -18,7 +15,6 @@ static const int64_t SCREENSHOT_NS = 5 * GN_NS_PER_S; /* limit until its frame c
 struct gn_show_control { /* the part's memory */
     const struct gn_part_host *host;
     struct gn_control *control;
-    struct gn_watch screenshot_done;
     struct gn_timer screenshot_late;
     const struct gn_request *screenshot, *reload; /* to be answered later; NULL: none */
     char dark[256];                  /* of the screenshot: why it is a text; "": it is a frame */
@@ -27,11 +23,10 @@ struct gn_show_control { /* the part's memory */
 
 /* ---- opening ---- */
 
-static void finish_screenshot(void *user, uint32_t events, int64_t now_ns);
+static void finish_screenshot(void *user, int64_t now_ns);
 static void give_up_screenshot(void *user, int64_t now_ns);
 
 static void close_all(struct gn_show *s, struct gn_show_control *c) {
-    gn_loop_remove(&c->screenshot_done);
     gn_loop_remove_timer(&c->screenshot_late);
     gn_screenshot_destroy(s->screenshot);
     s->screenshot = NULL;
@@ -49,18 +44,11 @@ static void open_control(void *part) {
     c->screenshot_late =
         (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = give_up_screenshot, .user = s};
     gn_loop_add_timer(s->loop, &c->screenshot_late);
-    s->screenshot = gn_screenshot_create(&err);
+    s->screenshot = gn_screenshot_create(s->loop, finish_screenshot, s, &err);
     c->control = s->screenshot ? gn_control_open(named ? named : path, s->loop, &err) : NULL;
     if (c->control) {
-        c->screenshot_done = (struct gn_watch){.fd = gn_screenshot_fd(s->screenshot),
-                                               .events = EPOLLIN,
-                                               .call = finish_screenshot,
-                                               .user = s};
-        if (gn_loop_add(s->loop, &c->screenshot_done)) {
-            s->control = c;
-            return;
-        }
-        gn_fail(&err, "control socket %s: cannot wait: %s", named ? named : path, strerror(errno));
+        s->control = c;
+        return;
     }
     if (named)
         gn_show_report_error(s, GN_PROBLEM_START, err.text);
@@ -175,13 +163,13 @@ static void give_up_screenshot(void *user, int64_t now_ns) {
     gn_screenshot_fail(s->screenshot, &err);
 }
 
-static void finish_screenshot(void *user, uint32_t events, int64_t now_ns) {
+static void finish_screenshot(void *user, int64_t now_ns) {
     const struct gn_show *s = user;
     struct gn_show_control *c = s->control;
     const struct gn_request *r = c->screenshot;
     struct gn_err err = {0};
     bool ok;
-    (void)events, (void)now_ns;
+    (void)now_ns;
     if (!gn_screenshot_take(s->screenshot, &ok, &err)) return;
     c->screenshot = NULL;
     c->screenshot_late.due_ns = GN_LOOP_NEVER;

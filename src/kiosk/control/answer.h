@@ -3,7 +3,6 @@
 #define GN_KIOSK_CONTROL_ANSWER_H
 
 #include <stdbool.h>
-#include <stdint.h>
 
 #include "core/err.h"
 

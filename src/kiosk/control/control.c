@@ -49,7 +49,7 @@ struct gn_control {
 
 /* ---- opening -------------------------------------------------------------------------------- */
 
-static void accept_connection(void *user, uint32_t events, int64_t now_ns);
+static void accept_connection(void *user, int64_t now_ns);
 static void serve_clients(void *user, int64_t now_ns);
 
 struct gn_control *gn_control_open(const char *path, struct gn_loop *loop, struct gn_err *err) {
@@ -271,9 +271,8 @@ static void refuse_connection(struct gn_control *c, int fd, const struct gn_err 
     gn_passed_close_socket(fd);
 }
 
-static void on_client(void *user, uint32_t events, int64_t now_ns) {
+static void on_client(void *user, int64_t now_ns) {
     struct client *client = user;
-    (void)events;
     client->readable = true;
     client->control->timer.due_ns = now_ns;
 }
@@ -307,10 +306,9 @@ static bool admit_client(struct gn_control *c, int fd, struct gn_err *err) {
 
 /* One connection in each step of the loop. Where no descriptor is left the spare one is closed, so
  * that the connection can be accepted and refused; else it would keep the listener readable. */
-static void accept_connection(void *user, uint32_t events, int64_t now_ns) {
+static void accept_connection(void *user, int64_t now_ns) {
     struct gn_control *c = user;
     struct gn_err err = {0};
-    (void)events;
     c->now_ns = now_ns;
     int fd = accept4(c->listen.fd, NULL, NULL, SOCK_CLOEXEC | SOCK_NONBLOCK);
     const bool lacks_descriptor = fd < 0 && (errno == EMFILE || errno == ENFILE);

@@ -3,7 +3,6 @@
 #define GN_KIOSK_CONTROL_REQUEST_H
 
 #include <jansson.h>
-#include <stdint.h>
 
 #include "core/err.h"
 #include "options/command.h"

@@ -7,6 +7,7 @@
 
 #include "core/clock.h"
 #include "core/json.h"
+#include "core/text.h"
 #include "kiosk/private.h"
 #include "stage/lights.h"
 
@@ -46,8 +47,7 @@ static json_t *lights_json(const struct gn_show *s) {
         for (uint32_t k = 0; scene && k < scene->light_count; k++)
             here |= gn_light_section_is_of(&o->lights[i], scene, k);
         gn_stage_print_light(o, &o->lights[i], holds, sizeof holds);
-        const size_t used = strlen(holds);
-        if (!here) snprintf(holds + used, sizeof holds - used, " (not in this scene)");
+        if (!here) gn_text_add(holds, sizeof holds, " (not in this scene)");
         json_t *name = gn_json_make_text(o->lights[i].name); /* always UTF-8 */
         json_object_set_new(lights, json_string_value(name), gn_json_make_text(holds));
         json_decref(name);
