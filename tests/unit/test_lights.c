@@ -138,6 +138,19 @@ static void the_radius_of_all_is_that_of_the_made_light(void **state) {
     assert_true(of_light(0)->radius == 0.1f);
     assert_true(build_look("[light \"key light\"]\nlight_radius = 0.1\n", "--light-radius", "0.2"));
     assert_true(of_light(0)->radius == 0.2f);
+
+    /* by itself it is that of the environment's key */
+    static const char *const automatic[] = {"", "[light]\nradius = auto\n",
+                                            "[light \"key light\"]\nlight_radius = auto\n"};
+    for (int i = 0; i < 3; i++) {
+        const struct gn_environment_key key = {.color = {1, 1, 1}, .radius = .24f};
+        struct gn_frame_shadow_opts *opts = &look.frame_opts.shadow;
+        assert_true(build_look(automatic[i], NULL, NULL));
+        *opts = (struct gn_frame_shadow_opts){0};
+        gn_stage_set_key(opts, scene, &key, 1);
+        gn_stage_set_lights(opts, options.settings, scene, &warnings);
+        assert_true(of_light(0)->radius == .24f && GN_LIGHT_HAS(of_light(0), radius));
+    }
 }
 
 static void assert_color(uint32_t light, float r, float g, float b) {
