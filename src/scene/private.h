@@ -172,7 +172,7 @@ struct gn_gltf {
     struct gn_hash_key hash_key; /* of the tables of this load */
     int64_t end_ns;              /* of the thread's processor time: the limit on seconds */
     uint32_t getters;            /* calls since the start; every so often one looks at the clock */
-    bool failed;
+    bool failed, failed_part;    /* part: by what the file has at one place, by no limit */
     bool is_missing[GN_MISSING_COUNT];
     struct gn_gltf_memory memory;
     struct gn_gltf_file file;
@@ -196,6 +196,10 @@ bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format,
     __attribute__((format(printf, 3, 4)));
 void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* For a part of the file that a scene can do without, right after it was read by a load that had
+ * not failed before: where it is at fault, its failure becomes a warning that ends in `without`,
+ * the load goes on, and the answer is true. Failures by limits and of memory stay. */
+bool gn_gltf_spare(struct gn_gltf *g, const char *without);
 
 /* ---- gltf/memory.c ---- */
 
@@ -243,6 +247,12 @@ bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
 
 /* ---- helpers ---- */
 
+/* gltf/mesh.c: the accessor of an attribute, or of its part of a target, checked against the row
+ * and the number of vertices. -1: there is none, or it is at fault; this is a warning, but a
+ * failure where count is 0, as for positions. */
+int32_t gn_gltf_attribute(struct gn_gltf *g, const struct gn_at *of, const char *semantic,
+                          const struct gn_attribute_row *row, size_t count);
+
 /* load.c: of the file; NULL: none that can be reached. To be freed. */
 char *gn_scene_folder(const char *path);
 
@@ -273,7 +283,7 @@ size_t gn_accessor_element_size(const struct gn_accessor *a);
 /* All elements as floats, normalised as the accessor says, into out: components x count of them;
  * missing components stay as they are. */
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out);
-/* The same for the elements that source names, count of them. */
+/* The same for the elements that source names, count of them; NULL: for the first ones. */
 void gn_accessor_gather(const struct gn_accessor *a, size_t components, const uint32_t *source,
                         size_t count, float *out);
 /* All elements as numbers, into out: count of them. The accessor is of unsigned scalars. */
