@@ -138,6 +138,12 @@ struct gn_gltf_primitives { /* of the meshes in use, mesh by mesh, and what they
     struct gn_vertices *vertices;
     size_t count, vertices_count;
 };
+/* What a picture takes: pixels and bytes that stay, those of decoding it, those on the GPU. */
+struct gn_picture_need {
+    uint32_t px[2];
+    uint64_t kept, decoding, on_gpu;
+    uint64_t halved; /* bytes of decoding it if it is halved as well; 0: it cannot be */
+};
 struct gn_picture {  /* the source of images */
     uint64_t key[3]; /* a file: 1, device, inode; a part of a buffer: 2, address, size */
     size_t first;    /* number of the first image in the file that names it */
@@ -151,7 +157,13 @@ struct gn_gltf_pictures { /* each is read once, whether it can be or not */
     struct gn_picture *list;
     size_t count;
     struct gn_table table;
-    struct gn_glossy *glossy; /* by texture of the scene; NULL: none yet */
+    struct gn_glossy *glossy;      /* by texture of the scene; NULL: none yet */
+    struct gn_picture_need *needs; /* of pictures that may be shown, at their own size */
+    size_t need_count, room;       /* bytes left within memory_mb before the first of them */
+    uint64_t over_mb;
+    const char *over; /* the limit that all at their size are over; NULL: none */
+    uint32_t fit_px;  /* longer sides must be halved until they are within this */
+    int loads;        /* so many before this one were over */
 };
 struct gn_gltf_to_scene {             /* from numbers of the file to indices in the scene */
     int32_t *node;                    /* -1: not shown */
@@ -366,15 +378,19 @@ struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents);
 /* gltf/image.c: the scene's texture for one of the file, created at its first use; -1: none, or
  * dropped with a warning. kind: of its picture, where that is made smaller. */
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture, enum gn_scale_kind kind);
-/* gltf/memory.c: what a picture takes: pixels and bytes that stay, those of decoding it, those on
- * the GPU. */
-struct gn_picture_need {
-    uint32_t px[2];
-    uint64_t kept, decoding, on_gpu;
-};
-/* Fails where that is over a limit. */
+/* gltf/memory.c: how often sides must be halved to be within most_px; 0: that is no limit. */
+uint32_t gn_gltf_halvings(const uint32_t px[2], uint32_t most_px);
+/* Fails where the picture is over a limit. whole: the same at its own size. Where pictures would
+ * fit if they were halved, all that follow fail, too: what they need is noted, and the scene is
+ * loaded again with smaller ones (gn_gltf_fit_pictures). */
 bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
-                          struct gn_err *err);
+                          const struct gn_picture_need *whole, struct gn_err *err);
+/* At the end of a load: the longest side with which all pictures are within the limits; 0: they are
+ * as they were loaded, or will not be. */
+uint32_t gn_gltf_fit_pictures(const struct gn_gltf *g);
+/* They are over that limit. False: they have been loaded again for that often enough. */
+bool gn_gltf_halve_pictures(struct gn_gltf *g, const char *limit, uint64_t mb);
+
 /* The time of decoding it, as texels. */
 uint64_t gn_gltf_picture_work(const struct gn_picture_need *need);
 /* Counts a picture that was decoded. */
