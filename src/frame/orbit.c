@@ -54,9 +54,10 @@ static struct stand stand_of(const struct gn_pose *pose, const struct gn_framing
  * there is none, or it is about as far away as that and the axis goes by the centre, as where the
  * whole model is shown. */
 static float find_surface_m(const struct gn_pose *pose, const struct gn_framing *framing,
-                            uint32_t camera) {
+                            uint32_t camera, const struct gn_framing_opts *opts) {
     const struct gn_scene *scene = pose->scene;
-    if ((scene->added.camera && camera + 1 == scene->camera_count) || framing->distance_m > 0.0f)
+    if (camera + 1 == opts->made_plus_1 ||
+        (scene->added.camera && camera + 1 == scene->camera_count) || framing->distance_m > 0.0f)
         return 0.0f;
     const struct stand s = stand_of(pose, framing, 0.0f);
     const struct gn_camera *c = &framing->camera;
@@ -89,7 +90,7 @@ struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbi
     gn_framing_build(pose, camera, opts, &framing);
     const struct gn_camera *c = &framing.camera;
     struct gn_orbit o = *orbit;
-    if (gn_orbit_is_zero(orbit)) o.distance_m = find_surface_m(pose, &framing, camera);
+    if (gn_orbit_is_zero(orbit)) o.distance_m = find_surface_m(pose, &framing, camera, opts);
     const struct stand s = stand_of(pose, &framing, o.distance_m);
     o.yaw_rad = fmodf(o.yaw_rad - GLM_PIf * hand->turn[0], 2.0f * GLM_PIf);
     const float height_rad = asinf(glm_clamp(s.back[1], -1.0f, 1.0f));

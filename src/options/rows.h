@@ -6,8 +6,8 @@
 /* the scene, and how it stands */
 GN_OPTION(.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_SCENES, .value = "FILE",
           .help = "scene file (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); may be repeated: next-scene goes through the list; on the command line it needs no flag", .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.path))
-GN_OPTION(.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|light:NAME",
-          .help = "camera of the scene, or the view of a spot or directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
+GN_OPTION(.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|light:NAME|auto",
+          .help = "camera of the scene, or the view of a spot or directional light; auto: the first camera, but if it sees less than a third of the model one that shows all of it", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
 GN_OPTION(.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",
           .help = "play only this clip (default: all that do not collide)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
 GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,

@@ -222,6 +222,42 @@ static void test_a_deep_camera_is_noticed(void **state) {
     assert_no_advice("no camera");
 }
 
+/* The square of 2 m, through one camera or two of the same kind, the first of them named. */
+static void inspect_through(const char *cameras) {
+    char json[400];
+    gn_maker_add(&maker, "cameras",
+                 "{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1,'zfar':100}}");
+    snprintf(json, sizeof json, "[{'mesh':0},%s]", cameras);
+    gn_maker_set(&maker, "nodes", json);
+    gn_maker_set(&maker, "scenes",
+                 strstr(cameras, "},{") ? "[{'nodes':[0,1,2]}]" : "[{'nodes':[0,1]}]");
+    inspect();
+}
+
+static void test_a_camera_that_misses_the_model_is_noticed(void **state) {
+    (void)state;
+    inspect_through("{'name':'eye','camera':0,'translation':[0,1,-9]}");
+    assert_advice("camera 'eye' sees 0 % of the model");
+    assert_no_advice("no camera");
+}
+
+static void test_a_camera_that_cuts_the_model_is_noticed(void **state) {
+    (void)state;
+    inspect_through("{'name':'eye','camera':0,'translation':[1,0.5,2.5]}");
+    assert_advice("camera 'eye' cuts the model");
+}
+
+static void test_cameras_that_show_it_and_details_are_no_fault(void **state) {
+    (void)state;
+    inspect_through("{'name':'eye','camera':0,'translation':[0,1,9]}");
+    assert_no_advice("camera 'eye'");
+    teardown(NULL);
+    setup(NULL);
+    inspect_through("{'name':'eye','camera':0,'translation':[1,0.5,2.5]},"
+                    "{'camera':0,'translation':[0,1,9]}");
+    assert_no_advice("camera 'eye'");
+}
+
 static void test_a_mask_without_holes_is_noticed(void **state) {
     (void)state;
     set_material("{'name':'wall','alphaMode':'MASK'}");
@@ -368,6 +404,9 @@ int main(void) {
         TEST(test_millimetres_are_noticed),
         TEST(test_a_doll_house_is_noticed),
         TEST(test_a_deep_camera_is_noticed),
+        TEST(test_a_camera_that_misses_the_model_is_noticed),
+        TEST(test_a_camera_that_cuts_the_model_is_noticed),
+        TEST(test_cameras_that_show_it_and_details_are_no_fault),
         TEST(test_a_mask_without_holes_is_noticed),
         TEST(test_blend_without_transparency_is_opaque),
         TEST(test_glass_is_not_called_opaque),

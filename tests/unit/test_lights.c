@@ -1,4 +1,4 @@
-/* [light "NAME"] of a configuration, and what belongs to lights, applied to a scene. */
+/* [light "NAME"] of a configuration, what belongs to lights, and the camera, applied to a scene. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -310,12 +310,40 @@ static int finish(void **state) {
     return clean(state);
 }
 
+static void an_automatic_camera_is_the_first_if_it_sees_the_model(void **state) {
+    (void)state;
+    for (int away = 0; away < 2; away++) {
+        struct gn_maker maker;
+        gn_maker_init(&maker);
+        gn_maker_square(&maker);
+        gn_maker_set(&maker, "cameras",
+                     "[{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1}}]");
+        gn_maker_set(&maker, "nodes",
+                     away ? "[{'mesh':0},{'camera':0,'translation':[0,1,-9]}]"
+                          : "[{'mesh':0},{'camera':0,'translation':[0,1,9]}]");
+        gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+        scene = gn_maker_load(&maker, NULL, &err);
+        if (!scene) fail_msg("%s", err.text);
+        assert_true(build_look("[scene]\ncamera = auto\n", NULL, NULL));
+        assert_int_equal(look.frame_opts.view.camera, 0);
+        assert_int_equal(look.frame_opts.view.framing.made_plus_1, away);
+        assert_true(build_look("", NULL, NULL)); /* by itself it is that of the file */
+        assert_int_equal(look.frame_opts.view.framing.made_plus_1, 0);
+        if (away == 0) gn_scene_destroy(scene);
+    }
+    gn_scene_destroy(scene);
+    make_scene(false); /* the made one is such a camera anyway */
+    assert_true(build_look("", "--camera", "auto"));
+    assert_int_equal(look.frame_opts.view.framing.made_plus_1, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_light_is_found_by_its_node_or_its_own_name, finish),
         cmocka_unit_test_teardown(automatic_of_one_beats_what_holds_for_all, finish),
         cmocka_unit_test_teardown(a_flag_beats_it, finish),
         cmocka_unit_test_teardown(a_name_that_no_light_has_is_one_warning, finish),
+        cmocka_unit_test_teardown(an_automatic_camera_is_the_first_if_it_sees_the_model, finish),
         cmocka_unit_test_teardown(the_radius_of_all_is_that_of_the_made_light, finish),
         cmocka_unit_test_teardown(a_light_has_a_colour_an_intensity_and_a_switch, finish),
         cmocka_unit_test_teardown(the_made_light_is_as_its_section_says, finish),
