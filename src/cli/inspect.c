@@ -3,6 +3,7 @@
 #include "cli/inspect.h"
 
 #include "cli/commands.h"
+#include "stage/environment.h"
 #include "stage/lights.h"
 #include "stage/stage.h"
 
@@ -12,12 +13,15 @@ bool gn_cli_inspect(const struct gn_options *options, struct gn_warnings *warnin
     if (!scene) return false;
     const struct gn_scene_limits limits = gn_stage_limits(options->settings);
     struct gn_inspection in;
-    struct gn_frame_shadow_opts unused = {0};
-    gn_stage_set_lights(&unused, options->settings, scene, warnings); /* for its warnings */
+    struct gn_frame_opts look = {0};
+    struct gn_err dark = {0};
+    if (!gn_stage_set_environment(&look, options->settings, scene, &dark))
+        gn_warn(warnings, "%s", dark.text);
+    gn_stage_set_lights(&look.shadow, options->settings, scene, warnings);
+    look.shadow.triangles = limits.triangles_per_frame;
     bool ok = true;
     const char *path = options->settings->scene.path;
-    gn_inspect_build(&in, path ? path : "(default scene)", scene, limits.triangles_per_frame,
-                     warnings);
+    gn_inspect_build(&in, path ? path : "(default scene)", scene, &look.shadow, warnings);
     gn_scene_limits_print(&limits, in.limits, sizeof in.limits);
     in.settings = options->settings;
     if (in.cost.map_bytes > limits.maps_mb << 20)

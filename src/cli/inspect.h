@@ -7,6 +7,7 @@
 #include "cli/problem.h"
 #include "core/err.h"
 #include "core/warn.h"
+#include "frame/frame.h"
 #include "options/settings.h"
 #include "scene/scene.h"
 
@@ -27,14 +28,16 @@ struct gn_inspection {
     const struct gn_warnings *warnings; /* of loading, and of a frame */
     const struct gn_settings *settings; /* for [light "NAME"], or NULL */
     char limits[400];                   /* as gn_scene_limits_print() makes them, or "" */
+    struct gn_light made_light; /* as it is used, if the scene has one: last in the scene's list */
     struct gn_scene_cost cost;
     struct gn_problem_list advice;
 };
 
-/* All but `limits` and `settings` of it; file, scene and warnings must outlive it. triangles: of a
- * frame at most, or 0. Adds what a frame warns of: a light without the shadow it asks for. */
+/* All but `limits` and `settings` of it; file, scene and warnings must outlive it. shadow: NULL, or
+ * the triangles of a frame at most, and the lights as the configuration and the environment have
+ * them. Adds what a frame warns of: a light without the shadow it asks for. */
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
-                      uint64_t triangles, struct gn_warnings *warnings);
+                      const struct gn_frame_shadow_opts *shadow, struct gn_warnings *warnings);
 /* Fills advice; the cost must be known. */
 void gn_inspect_advise(struct gn_inspection *in);
 
@@ -46,8 +49,10 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to);
 /* One object:
  * file, name, size_m [x, y, z],
  * counts {nodes, items, instances, batches, geometries, vertices, triangles, textures, skins,
- *     joints, targets} (targets: of all nodes),
+ *     joints, targets} (targets: of all nodes; here and below without a made floor, and without
+ *     the nodes of a made light and camera),
  * materials {count, opaque, mask, blend, unlit, double_sided} (glTF's default one counts),
+ * floor_made (an unseen one, for shadows),
  * images [{width_px, height_px, alpha, bytes}],
  * lights [{name, type, intensity, unit, color, range_m|null, inner_deg|null, outer_deg|null,
  *     gnomon_shadow|null, gnomon_map_px|null, gnomon_radius, gnomon_shadow_strength,

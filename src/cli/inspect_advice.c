@@ -95,6 +95,30 @@ static void check_lights(struct gn_inspection *in) {
                        "the file has no light: it is shown in a studio");
 }
 
+/* Of a file with one camera, as Blender's own is that nobody moved to the model. */
+static void check_view(struct gn_inspection *in) {
+    const struct gn_scene *s = in->scene;
+    struct gn_pose pose;
+    bool cuts;
+    if (s->added.camera || s->camera_count != 1 || !s->item_count) return;
+    gn_pose_init(&pose, s, GN_POSE_DEFAULT);
+    const float share = gn_framing_share(&pose, 0, &cuts);
+    gn_pose_finish(&pose);
+    if (share < GN_FRAMING_LEAST_SHARE)
+        gn_problem_add(&in->advice,
+                       "--camera auto, or camera = auto in [scene], shows all of it; or turn the "
+                       "camera to the model, or take it out of the file",
+                       "camera '%s' sees %.0f %% of the model", s->cameras[0].name,
+                       (double)(100 * share));
+    else if (cuts)
+        gn_problem_add(&in->advice,
+                       "move the camera back, or take it out of the file: then one is made that "
+                       "shows all of it",
+                       "camera '%s' cuts the model at the border of the picture, or at its near or "
+                       "far end",
+                       s->cameras[0].name);
+}
+
 void gn_inspect_advise(struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
 
@@ -124,6 +148,7 @@ void gn_inspect_advise(struct gn_inspection *in) {
 
     check_surfaces(in);
     check_lights(in);
+    check_view(in);
     for (uint32_t i = 0; i < s->camera_count; i++) {
         const struct gn_camera *c = &s->cameras[i];
         if (!c->orthographic && c->far_m > 0 && c->far_m / c->near_m > DEPTH_RATIO)

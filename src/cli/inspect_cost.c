@@ -5,13 +5,13 @@
 #include "frame/frame.h"
 
 void gn_inspect_build(struct gn_inspection *in, const char *file, const struct gn_scene *scene,
-                      uint64_t triangles, struct gn_warnings *warnings) {
+                      const struct gn_frame_shadow_opts *shadow, struct gn_warnings *warnings) {
     *in = (struct gn_inspection){.file = file, .scene = scene, .warnings = warnings};
     const struct gn_caps caps = {
         .has = (1u << GN_CAP_COUNT) - 1, .max_texture_px = 16384, .max_texture_units = 16};
     const struct gn_frame_opts opts = {.output.width_px = GN_INSPECT_WIDTH_PX,
                                        .output.height_px = GN_INSPECT_HEIGHT_PX,
-                                       .shadow.triangles = triangles};
+                                       .shadow.triangles = shadow ? shadow->triangles : 0};
     struct gn_pose pose;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     struct gn_frame *frame = gn_frame_create(scene, &caps);
@@ -35,6 +35,14 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
     in->cost.programs = plan->program_count;
     in->cost.culled = plan->culled;
     in->cost.target_bytes = (uint64_t)GN_INSPECT_WIDTH_PX * GN_INSPECT_HEIGHT_PX * 8;
+    if (scene->added.light) {
+        const uint32_t last = scene->light_count - 1;
+        const struct gn_frame_opts used = {.shadow = shadow ? *shadow : opts.shadow};
+        const struct gn_light_opts holds = gn_frame_light_opts(frame, &pose, &used, last);
+        in->made_light = scene->lights[last];
+        in->made_light.radius = holds.radius;
+        memcpy(in->made_light.color, holds.color, sizeof holds.color);
+    }
     gn_frame_destroy(frame);
     gn_pose_finish(&pose);
 

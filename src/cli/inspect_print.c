@@ -15,6 +15,12 @@ static double max_channel(const struct gn_light *light) {
 
 static bool is_made(bool made, uint32_t i, uint32_t count) { return made && i + 1 == count; }
 
+/* As it is used, if it is made. */
+static const struct gn_light *light_of(const struct gn_inspection *in, uint32_t i) {
+    const struct gn_scene *s = in->scene;
+    return is_made(s->added.light, i, s->light_count) ? &in->made_light : &s->lights[i];
+}
+
 /* What the configuration says of that light: of each section that is of it. */
 static void print_settings(const struct gn_inspection *in, uint32_t light, char *out, size_t size) {
     const struct gn_settings *s = in->settings;
@@ -27,13 +33,39 @@ static void print_settings(const struct gn_inspection *in, uint32_t light, char 
     }
 }
 
+/* What the file has, without the floor, the light and the camera that are made. */
+struct counts {
+    uint32_t nodes, items, batches, geometries, vertices, textures, images;
+    uint64_t triangles;
+};
+
+/* The made floor has one item, geometry and node, and a texture if it is occluded: its last. */
+static struct counts count_parts(const struct gn_scene *s) {
+    const uint32_t floor = s->added.floor;
+    uint32_t occluded = 0;
+    for (uint32_t i = 0; i < s->material_count; i++)
+        occluded |= s->materials[i].shadow_catcher &&
+                    s->materials[i].textures[GN_TEXTURE_OCCLUSION].texture >= 0;
+    return (struct counts){
+        .nodes = s->node_count - floor - s->added.light - s->added.camera,
+        .items = s->item_count - floor,
+        .batches = s->batch_count - floor,
+        .geometries = s->geometry_count - floor,
+        .vertices = s->buffers.vertex_count - 4 * floor,
+        .triangles = s->triangle_count - 2 * floor,
+        .textures = s->pictures.texture_count - occluded,
+        .images = s->pictures.image_count - occluded,
+    };
+}
+
 struct kinds {
-    uint32_t alpha[3], unlit, double_sided;
+    uint32_t all, alpha[3], unlit, double_sided;
 };
 
 static struct kinds count_kinds(const struct gn_scene *scene) {
-    struct kinds k = {0};
+    struct kinds k = {.all = scene->material_count - scene->added.floor};
     for (uint32_t i = 0; i < scene->material_count; i++) {
+        if (scene->materials[i].shadow_catcher) continue;
         k.alpha[scene->materials[i].alpha]++;
         k.unlit += scene->materials[i].unlit;
         k.double_sided += scene->materials[i].double_sided;
@@ -68,14 +100,12 @@ static void print_image(FILE *to, uint32_t i, const struct gn_image *image) {
 
 static void print_lists(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene *s = in->scene;
-    if (s->pictures.image_count)
-        fprintf(to, "\nTextures: %u of %u images\n", s->pictures.texture_count,
-                s->pictures.image_count);
-    for (uint32_t i = 0; i < s->pictures.image_count; i++)
-        print_image(to, i, &s->pictures.images[i]);
+    const struct counts n = count_parts(s);
+    if (n.images) fprintf(to, "\nTextures: %u of %u images\n", n.textures, n.images);
+    for (uint32_t i = 0; i < n.images; i++) print_image(to, i, &s->pictures.images[i]);
     fprintf(to, "\nLights\n");
     for (uint32_t i = 0; i < s->light_count; i++) {
-        const struct gn_light *light = &s->lights[i];
+        const struct gn_light *light = light_of(in, i);
         char cone[64] = "", range[32] = "", map[32] = "", slide[32] = "";
         if (gn_light_types[light->type].has_cone)
             snprintf(cone, sizeof cone, ", cone %.3g to %.3g degrees", GN_DEG(light->inner_rad),
@@ -126,7 +156,8 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
 
 void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene *s = in->scene;
-    struct kinds k = count_kinds(s);
+    const struct kinds k = count_kinds(s);
+    const struct counts n = count_parts(s);
     vec3 size;
     get_scene_size(s, size);
     fprintf(to, "Scene\n");
@@ -138,18 +169,20 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     if (origin[0] != 0 || origin[1] != 0 || origin[2] != 0)
         print_line(to, "%-11s far from the file's: drawn around %.10g %.10g %.10g", "place",
                    origin[0], origin[1], origin[2]);
-    print_line(to, "%-11s %u", "nodes", s->node_count);
-    print_line(to, "%-11s %u in %u batches, %u of them instances", "items", s->item_count,
-               s->batch_count, s->instance_count);
+    print_line(to, "%-11s %u", "nodes", n.nodes);
+    print_line(to, "%-11s %u in %u batches, %u of them instances", "items", n.items, n.batches,
+               s->instance_count);
     print_line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
-               s->geometry_count, s->buffers.vertex_count, (unsigned long long)s->triangle_count);
+               n.geometries, n.vertices, (unsigned long long)n.triangles);
     if (s->deformation.width > 0)
         print_line(to, "%-11s %u skins, %u joints, %u morph targets, %.2f MB of deltas", "posed",
                    s->deformation.skin_count, s->deformation.joint_count,
                    s->deformation.weight_count, GN_MB(gn_scene_deformation_bytes(s)));
     print_line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
-               s->material_count, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
-               k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
+               k.all, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK], k.alpha[GN_ALPHA_BLEND],
+               k.unlit, k.double_sided);
+    if (s->added.floor)
+        print_line(to, "%-11s unseen, for shadows (made: the file has none)", "floor");
     if (s->missing && s->missing[0]) print_line(to, "%-11s %s", "missing", s->missing);
     const float *colors[] = {s->environment.sky, s->environment.ground, s->environment.background};
     static const char *const names[] = {"sky", "ground", "background"};
@@ -201,7 +234,7 @@ static json_t *light_json(const struct gn_inspection *in, uint32_t i) {
     const struct gn_scene *s = in->scene;
     char own[320];
     print_settings(in, i, own, sizeof own);
-    const struct gn_light *l = &s->lights[i];
+    const struct gn_light *l = light_of(in, i);
     double strongest = max_channel(l);
     bool spot = gn_light_types[l->type].has_cone;
     vec3 color;
@@ -225,35 +258,33 @@ static json_t *light_json(const struct gn_inspection *in, uint32_t i) {
 static json_t *content_json(const struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
     const struct kinds k = count_kinds(s);
+    const struct counts n = count_parts(s);
     vec3 size;
     get_scene_size(s, size);
     json_t *counts = json_pack(
-        "{so so so so so so so so so so so}", "nodes", gn_json_make_count(s->node_count), "items",
-        gn_json_make_count(s->item_count), "instances", gn_json_make_count(s->instance_count),
-        "batches", gn_json_make_count(s->batch_count), "geometries",
-        gn_json_make_count(s->geometry_count), "vertices",
-        gn_json_make_count(s->buffers.vertex_count), "triangles",
-        gn_json_make_count(s->triangle_count), "textures",
-        gn_json_make_count(s->pictures.texture_count), "skins",
-        gn_json_make_count(s->deformation.skin_count), "joints",
-        gn_json_make_count(s->deformation.joint_count), "targets",
+        "{so so so so so so so so so so so}", "nodes", gn_json_make_count(n.nodes), "items",
+        gn_json_make_count(n.items), "instances", gn_json_make_count(s->instance_count), "batches",
+        gn_json_make_count(n.batches), "geometries", gn_json_make_count(n.geometries), "vertices",
+        gn_json_make_count(n.vertices), "triangles", gn_json_make_count(n.triangles), "textures",
+        gn_json_make_count(n.textures), "skins", gn_json_make_count(s->deformation.skin_count),
+        "joints", gn_json_make_count(s->deformation.joint_count), "targets",
         gn_json_make_count(s->deformation.weight_count));
     json_t *materials =
-        json_pack("{so so so so so so}", "count", gn_json_make_count(s->material_count), "opaque",
+        json_pack("{so so so so so so}", "count", gn_json_make_count(k.all), "opaque",
                   gn_json_make_count(k.alpha[GN_ALPHA_OPAQUE]), "mask",
                   gn_json_make_count(k.alpha[GN_ALPHA_MASK]), "blend",
                   gn_json_make_count(k.alpha[GN_ALPHA_BLEND]), "unlit", gn_json_make_count(k.unlit),
                   "double_sided", gn_json_make_count(k.double_sided));
-    return json_pack("{so so so so so}", "file", gn_json_make_text(in->file), "name",
+    return json_pack("{so so so so so sb}", "file", gn_json_make_text(in->file), "name",
                      gn_json_make_text(s->name), "size_m", vector_json(size), "counts", counts,
-                     "materials", materials);
+                     "materials", materials, "floor_made", s->added.floor);
 }
 
 static void add_lists(json_t *all, const struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
     json_t *images = json_array(), *lights = json_array(), *cameras = json_array();
     json_t *clips = json_array(), *variants = json_array();
-    for (uint32_t i = 0; i < s->pictures.image_count; i++) {
+    for (uint32_t i = 0; i < count_parts(s).images; i++) {
         const struct gn_image *image = &s->pictures.images[i];
         json_array_append_new(images, json_pack("{so so sb so ss so}", "width_px",
                                                 gn_json_make_count(image->width_px), "height_px",

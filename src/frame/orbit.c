@@ -3,8 +3,10 @@
 #include <math.h>
 
 static const float HIGHEST_RAD = 1.56f; /* elevation over the point looked at: not quite the pole */
-static const float FARTHEST_ZOOM = -3.9f; /* 50 times as far away */
-static const float LARGEST_ZOOM = 6.9f;   /* orthographic: a thousand times as large */
+static const float FARTHEST_ZOOM = -3.9f;             /* 50 times as far away */
+static const float CENTRAL = .25f, NEAR_CENTRE = .5f; /* find_surface_m(): shares of the radius, and
+                                                          of the distance to the centre */
+static const float LARGEST_ZOOM = 6.9f;               /* orthographic: a thousand times as large */
 
 bool gn_orbit_is_zero(const struct gn_orbit *o) {
     return o->yaw_rad == 0.0f && o->pitch_rad == 0.0f && o->zoom == 0.0f && o->shift_m[0] == 0.0f &&
@@ -22,7 +24,9 @@ struct stand {
     float distance_m, radius_m;
 };
 
-static struct stand stand_of(const struct gn_pose *pose, const struct gn_framing *framing) {
+/* turns_about_m: as in gn_orbit. */
+static struct stand stand_of(const struct gn_pose *pose, const struct gn_framing *framing,
+                             float turns_about_m) {
     const struct gn_box *box = &pose->scene->box;
     struct stand s;
     vec3 centre, to_centre;
@@ -38,10 +42,34 @@ static struct stand stand_of(const struct gn_pose *pose, const struct gn_framing
     s.distance_m = -glm_vec3_dot(to_centre, s.back);
     if (framing->distance_m > 0.0f)
         s.distance_m = framing->distance_m;
+    else if (turns_about_m > 0.0f)
+        s.distance_m = turns_about_m;
     else if (s.distance_m < 0.05f * s.radius_m)
         s.distance_m = s.radius_m; /* it looks elsewhere */
     s.distance_m = fmaxf(s.distance_m, nearest_m(&framing->camera));
     return s;
+}
+
+/* The distance to the first surface on the axis of a camera of the file. 0, for the scene's centre:
+ * there is none, or it is about as far away as that and the axis goes by the centre, as where the
+ * whole model is shown. */
+static float find_surface_m(const struct gn_pose *pose, const struct gn_framing *framing,
+                            uint32_t camera, const struct gn_framing_opts *opts) {
+    const struct gn_scene *scene = pose->scene;
+    if (camera + 1 == opts->made_plus_1 ||
+        (scene->added.camera && camera + 1 == scene->camera_count) || framing->distance_m > 0.0f)
+        return 0.0f;
+    const struct stand s = stand_of(pose, framing, 0.0f);
+    const struct gn_camera *c = &framing->camera;
+    vec3 forward, centre, about;
+    glm_vec3_negate_to((float *)s.back, forward);
+    const float surface_m = gn_pose_surface_m(pose, s.eye_ws, forward, c->near_m);
+    glm_vec3_center((float *)scene->box.min, (float *)scene->box.max, centre);
+    glm_vec3_copy((float *)s.eye_ws, about);
+    glm_vec3_muladds(forward, s.distance_m, about);
+    const bool is_of_all = glm_vec3_distance(about, centre) < CENTRAL * s.radius_m &&
+                           surface_m > NEAR_CENTRE * s.distance_m;
+    return isfinite(surface_m) && !is_of_all ? surface_m : 0.0f;
 }
 
 /* Rotates about its own right axis, then about the vertical. */
@@ -61,8 +89,9 @@ struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbi
     struct gn_framing framing;
     gn_framing_build(pose, camera, opts, &framing);
     const struct gn_camera *c = &framing.camera;
-    const struct stand s = stand_of(pose, &framing);
     struct gn_orbit o = *orbit;
+    if (gn_orbit_is_zero(orbit)) o.distance_m = find_surface_m(pose, &framing, camera, opts);
+    const struct stand s = stand_of(pose, &framing, o.distance_m);
     o.yaw_rad = fmodf(o.yaw_rad - GLM_PIf * hand->turn[0], 2.0f * GLM_PIf);
     const float height_rad = asinf(glm_clamp(s.back[1], -1.0f, 1.0f));
     /* limits, within which the camera itself always is */
@@ -96,7 +125,7 @@ struct gn_orbit gn_orbit_step(const struct gn_orbit *orbit, const struct gn_orbi
 float gn_orbit_view(const struct gn_orbit *orbit, const struct gn_pose *pose, uint32_t camera,
                     const struct gn_framing_opts *opts, struct gn_framing *framing) {
     gn_framing_build(pose, camera, opts, framing);
-    const struct stand s = stand_of(pose, framing);
+    const struct stand s = stand_of(pose, framing, orbit->distance_m);
     const float distance_m =
         framing->camera.orthographic ? s.distance_m : s.distance_m * expf(-orbit->zoom);
     if (gn_orbit_is_zero(orbit)) return distance_m;

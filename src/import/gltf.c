@@ -221,13 +221,20 @@ static bool decode_primitive(struct gltf *g, size_t mesh, json_t *primitive) {
     if (part.size == 0 || !gn_draco_open(&draco, part.data, part.size, &why))
         return fail_gltf(g, "meshes", mesh, why);
     json_t *attributes = json_object_get(primitive, "attributes");
-    bool ok = true;
-    json_object_foreach(json_object_get(compressed, "attributes"), name, id) ok =
-        ok && decode_attribute(g, &draco, attributes, name, id);
-    if (ok) decode_indices(g, &draco, primitive);
+    bool has_positions = true;
+    json_object_foreach(json_object_get(compressed, "attributes"), name, id) {
+        if (decode_attribute(g, &draco, attributes, name, id)) continue;
+        has_positions &= strcmp(name, "POSITION") != 0;
+        json_object_del(attributes, name);
+        gn_warn(g->import->warnings,
+                "%s: meshes[%zu]: %.40s is not in the Draco-compressed data; shown without it",
+                g->import->opts->model, mesh, name);
+    }
+    if (has_positions) decode_indices(g, &draco, primitive);
     gn_draco_close(&draco);
     json_object_del(extensions, DRACO);
-    return ok || fail_gltf(g, "meshes", mesh, "an attribute is not in the Draco-compressed data");
+    return has_positions ||
+           fail_gltf(g, "meshes", mesh, "POSITION is not in the Draco-compressed data");
 }
 
 static bool decode_meshes(struct gltf *g) {

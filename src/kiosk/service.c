@@ -66,7 +66,9 @@ static void log_screen(struct gn_service *s, const struct gn_screen *screen) {
 bool gn_service_open(struct gn_service *s, struct gn_loop *loop, int64_t now_ns,
                      struct gn_err *err) {
     const char *path = getenv("NOTIFY_SOCKET");
-    *s = (struct gn_service){.socket = -1, .logs = (path && *path) || is_journal()};
+    const bool supervised = (path && *path) || is_journal();
+    const bool terminal = !supervised && isatty(STDERR_FILENO);
+    *s = (struct gn_service){.socket = -1, .logs = supervised || terminal, .shows = terminal};
     if (!path || !*path) return true;
 
     /* a path, or an abstract name that begins with "@" */

@@ -7,7 +7,8 @@
  *
  * Where there is a supervisor, or stderr is systemd's journal ($JOURNAL_STREAM), a line on stderr
  * says what the screen waits for when it begins to wait, and what it shows with the first picture
- * at the start and after each wait. */
+ * at the start and after each wait. A terminal gets the same lines, but none about a picture that
+ * comes without a wait. */
 #ifndef GN_KIOSK_SERVICE_H
 #define GN_KIOSK_SERVICE_H
 

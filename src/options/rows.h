@@ -6,8 +6,8 @@
 /* the scene, and how it stands */
 GN_OPTION(.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_SCENES, .value = "FILE",
           .help = "scene file (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); may be repeated: next-scene goes through the list; on the command line it needs no flag", .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.path))
-GN_OPTION(.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|light:NAME",
-          .help = "camera of the scene, or the view of a spot or directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
+GN_OPTION(.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|light:NAME|auto",
+          .help = "camera of the scene, or the view of a spot or directional light; auto: the first camera, but if it sees less than a third of the model one that shows all of it", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
 GN_OPTION(.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",
           .help = "play only this clip (default: all that do not collide)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
 GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
@@ -114,9 +114,9 @@ GN_OPTION(.name = "light-follow", .key = "follow", .section = "light", .kind = G
 GN_OPTION(.name = "light-color", .key = "color", .section = "light", .kind = GN_KIND_COLOR, .choices = light_colors, .value = "COLOUR", .fallback = "auto",
           .help = "colour of the made light, #rrggbb; how bright it is does not count", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(hue), .offset = FIELD(light.color))
 GN_OPTION(.name = "light-lux", .key = "lux", .section = "light", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|LUX", .unit = "lux", .fallback = "auto",
-          .help = "illuminance by the made light; 2.8 by itself. With --exposure 0 a white surface that faces 3.14 lux is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .target = LIGHT(intensity), .offset = FIELD(light.lux))
-GN_OPTION(.name = "light-radius", .key = "radius", .section = "light", .kind = GN_KIND_NUMBER, .max = 1000, .value = "R", .fallback = "0.00465",
-          .help = "size of the made light, by which pcss, cone and other soft techniques draw penumbrae: tangent of its angular radius; of a light that is not directional: metres", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(radius), .offset = FIELD(light.radius))
+          .help = "illuminance by the made light; auto: that of its environment, 2.4 in the studio, or 2.8 without one. With --exposure 0 a white surface that faces 3.14 lux is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .target = LIGHT(intensity), .offset = FIELD(light.lux))
+GN_OPTION(.name = "light-radius", .key = "radius", .section = "light", .kind = GN_KIND_EV, .max = 1000, .value = "auto|R", .fallback = "auto",
+          .help = "size of the made light, by which pcss, cone and other soft techniques draw penumbrae: tangent of its angular radius; of a light that is not directional: metres; auto: that of its environment, .24 in the studio, or .00465 without one", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(radius), .offset = FIELD(light.radius))
 GN_OPTION(.name = "light-intensity", .key = "intensity", .kind = GN_KIND_EV, .max = 1e9, .value = "auto|X", .fallback = "auto",
           .help = "intensity in the unit of the light, as in the file and as inspect prints it: candela, of a directional one lux", .of_light = true, .target = LIGHT(intensity), .offset = FIELD(light.intensity))
 GN_OPTION(.name = "light-on", .key = "on", .kind = GN_KIND_FLAG, .fallback = "yes",

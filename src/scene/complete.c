@@ -29,7 +29,7 @@ static uint32_t add_node(struct gn_gltf *g, const char *name, vec3 position, vec
  * 16:9. */
 static void make_camera(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
-    struct gn_camera camera = {.name = "camera", .yfov_rad = glm_rad(35)};
+    struct gn_camera camera = {.name = "camera", .yfov_rad = glm_rad(GN_FRAMING_ADDED_FOV_DEG)};
     vec3 axes[3] = {{0}, {0}, GN_FRAMING_ADDED_BACK}, eye, forward;
     glm_vec3_normalize(axes[2]);
     glm_vec3_crossn(GLM_YUP, axes[2], axes[0]);

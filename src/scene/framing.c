@@ -133,15 +133,29 @@ static void place_camera(const struct gn_framing_opts *opts, struct gn_framing_f
     if (made) set_planes(fit, axes[2], framing->distance_m, framing->eye_ws, c);
 }
 
+static void use_added_camera(struct gn_framing *framing) {
+    vec3 axes[3] = {{0}, {0}, GN_FRAMING_ADDED_BACK};
+    framing->camera = (struct gn_camera){.name = framing->camera.name,
+                                         .node = framing->camera.node,
+                                         .yfov_rad = glm_rad(GN_FRAMING_ADDED_FOV_DEG)};
+    glm_vec3_normalize(axes[2]);
+    glm_vec3_crossn(GLM_YUP, axes[2], axes[0]);
+    glm_vec3_cross(axes[2], axes[0], axes[1]);
+    for (int row = 0; row < 3; row++)
+        for (int k = 0; k < 3; k++) framing->view_from_world[k][row] = axes[row][k];
+}
+
 void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
                       const struct gn_framing_opts *opts, struct gn_framing *framing) {
     const struct gn_scene *scene = pose->scene;
-    const bool made = is_made(scene, camera), placed = opts->given & GN_FRAMING_PLACE;
+    const bool replaced = camera + 1 == opts->made_plus_1,
+               made = replaced || is_made(scene, camera), placed = opts->given & GN_FRAMING_PLACE;
     const float aspect = opts->aspect > 0 ? opts->aspect : 1;
     struct gn_camera *c = &framing->camera;
     *c = pose->cameras[camera];
     framing->distance_m = 0;
     gn_pose_view(pose, camera, framing->view_from_world, framing->eye_ws);
+    if (replaced) use_added_camera(framing);
     if (opts->given & GN_FRAMING_FOV && !c->orthographic) c->yfov_rad = opts->yfov_rad;
     if (c->aspect > aspect) c->yfov_rad = 2 * atanf(tanf(c->yfov_rad / 2) * c->aspect / aspect);
     if (!made && !placed) return;
@@ -159,4 +173,42 @@ void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
         for (int k = 0; k < 3; k++) view[k][row] = axes[row][k];
         view[3][row] = -glm_vec3_dot(axes[row], framing->eye_ws);
     }
+}
+
+/* ---- what a camera sees ---- */
+
+static bool is_in_picture(const struct gn_framing *framing, const vec3 point_ws) {
+    enum { WIDTH = 16, HEIGHT = 9 };
+    const struct gn_camera *c = &framing->camera;
+    vec3 at;
+    glm_mat4_mulv3((vec4 *)framing->view_from_world, (float *)point_ws, 1, at);
+    const float depth = -at[2];
+    const float half = c->orthographic ? fmaxf(fabsf(c->ymag_m), fabsf(c->xmag_m) * HEIGHT / WIDTH)
+                                       : depth * tanf(c->yfov_rad / 2);
+    return depth >= c->near_m && (c->far_m <= 0 || depth <= c->far_m) && fabsf(at[1]) <= half &&
+           fabsf(at[0]) <= half * WIDTH / HEIGHT;
+}
+
+float gn_framing_share(const struct gn_pose *pose, uint32_t camera, bool *cuts) {
+    enum { CELLS = 12 };
+    const struct gn_framing_opts opts = {.aspect = 16.0f / 9};
+    const struct gn_box *box = &pose->scene->box;
+    const struct gn_extent *extent = &pose->scene->extents[pose->at.clips - GN_POSE_NONE];
+    struct gn_framing framing;
+    gn_framing_build(pose, camera, &opts, &framing);
+    int seen = 0;
+    for (int i = 0; i < CELLS * CELLS * CELLS; i++) {
+        const int cell[3] = {i % CELLS, i / CELLS % CELLS, i / CELLS / CELLS};
+        vec3 p;
+        for (int k = 0; k < 3; k++)
+            p[k] = glm_lerp(box->min[k], box->max[k], ((float)cell[k] + .5f) / CELLS);
+        seen += is_in_picture(&framing, p);
+    }
+    bool inside = true;
+    for (int k = 0; k < 3; k++)
+        inside &= framing.eye_ws[k] >= box->min[k] && framing.eye_ws[k] <= box->max[k];
+    *cuts = false;
+    for (uint32_t i = 0; i < extent->count && !inside; i++)
+        *cuts |= !is_in_picture(&framing, extent->points[i]);
+    return (float)seen / (CELLS * CELLS * CELLS);
 }

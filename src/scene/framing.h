@@ -8,11 +8,14 @@
  * the right and above. */
 #define GN_FRAMING_ADDED_BACK                                                                      \
     { .55f, .5f, 1 }
+#define GN_FRAMING_ADDED_FOV_DEG 35
+#define GN_FRAMING_LEAST_SHARE   (1 / 3.0f) /* seen by a camera that is not replaced by itself */
 
-struct gn_framing_opts { /* zeroed: defaults */
-    float aspect;        /* of the picture, width / height; 1 */
-    bool turns;          /* the camera goes round the vertical axis through the scene's centre */
-    unsigned given;      /* bits: what of these takes the place of what the camera has */
+struct gn_framing_opts {  /* zeroed: defaults */
+    float aspect;         /* of the picture, width / height; 1 */
+    bool turns;           /* the camera goes round the vertical axis through the scene's centre */
+    uint32_t made_plus_1; /* this camera of the file gives way to one as the loader adds; 0: none */
+    unsigned given;       /* bits: what of these takes the place of what the camera has */
     float theta_rad, phi_rad, distance_m,
         target_ws[3]; /* where it stands: about the vertical, 0 from
                          +Z, towards +X; from straight above */
@@ -43,6 +46,11 @@ struct gn_framing {
  * camera has: it looks at the target, upright. */
 void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
                       const struct gn_framing_opts *opts, struct gn_framing *framing);
+
+/* The share of the scene's box that a camera sees, in a picture of 16:9 at this pose, by points all
+ * over the box: 0 to 1. *cuts: something is beside the picture, too near or too far, and the camera
+ * stands outside of the box. */
+float gn_framing_share(const struct gn_pose *pose, uint32_t camera, bool *cuts);
 
 /* The part that makes a place: the nearest from which all points of the extent are in the picture,
  * with a margin. axes: the camera's right, up and back. Sets eye_ws, and the camera's planes. */

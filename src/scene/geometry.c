@@ -26,10 +26,7 @@ struct gather {
 
 /* Copies elements as floats; missing components stay as they are. */
 static void put_floats(const struct gather *gather, size_t components, float *out) {
-    if (gather->source)
-        gn_accessor_gather(gather->accessor, components, gather->source, gather->count, out);
-    else
-        gn_accessor_floats(gather->accessor, components, out);
+    gn_accessor_gather(gather->accessor, components, gather->source, gather->count, out);
 }
 
 /* The same in work memory; missing components are 1 (an alpha, for one). */

@@ -31,6 +31,27 @@ uint64_t gn_scene_deformation_bytes(const struct gn_scene *scene) {
     return sizeof(vec4) * (rows * GN_DELTAS_WIDTH + (uint64_t)3 * d->width * d->height);
 }
 
+/* The longest side with which textures are within so many bytes; they are over that. */
+static uint32_t fit_textures(const struct gn_scene *scene, uint64_t most_bytes) {
+    uint32_t px = 0;
+    uint64_t bytes = UINT64_MAX;
+    for (uint32_t i = 0; i < scene->pictures.image_count; i++) {
+        const struct gn_image *image = &scene->pictures.images[i];
+        if (image->width_px > px) px = image->width_px;
+        if (image->height_px > px) px = image->height_px;
+    }
+    while (bytes > most_bytes && px > 1) {
+        px = (px + 1) / 2;
+        bytes = 0;
+        for (uint32_t i = 0; i < scene->pictures.image_count; i++) {
+            const struct gn_image *image = &scene->pictures.images[i];
+            const uint32_t sides[2] = {image->width_px, image->height_px};
+            bytes += gn_scene_image_bytes(image) >> 2 * gn_gltf_halvings(sides, px);
+        }
+    }
+    return px;
+}
+
 bool gn_scene_count_gpu(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     for (uint32_t i = 0; i < scene->material_count; i++) {
@@ -50,6 +71,8 @@ bool gn_scene_count_gpu(struct gn_gltf *g) {
         textures += gn_scene_image_bytes(&scene->pictures.images[i]);
     const uint64_t most_mb = g->limits.gpu_mb;
     if (textures + buffers <= most_mb << 20) return true;
+    if (buffers < most_mb << 20 && gn_gltf_halve_pictures(g, "gpu_mb", most_mb))
+        g->pictures.fit_px = fit_textures(scene, (most_mb << 20) - buffers);
     return gn_gltf_fail(g, NULL,
                         "textures of %" PRIu64 " MB and buffers of %" PRIu64
                         " MB are over the limit gpu_mb=%" PRIu64,

@@ -76,14 +76,14 @@ static const struct {
     {gn_scene_count_gpu, 990},
 };
 
-static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {
+/* fit_px: with smaller pictures it is within a limit; 0: it is what it is. */
+static struct gn_scene *load_once(struct gn_gltf *g, const uint8_t *data, size_t size,
+                                  uint32_t *fit_px) {
     struct holder *holder = gn_xalloc(1, sizeof *holder);
     holder->scene.memory.arena = holder;
     g->memory.scene = &holder->arena;
     g->scene = &holder->scene;
     g->memory.other_bytes = size;
-    g->hash_key = gn_hash_key_make();
-    g->end_ns = gn_clock_thread_cpu_ns() + (int64_t)g->limits.seconds * GN_NS_PER_S;
     bool done = gn_gltf_open(g, data, size);
     const size_t steps = sizeof STEPS / sizeof STEPS[0];
     for (size_t i = 0; done && i < steps; i++) {
@@ -93,16 +93,42 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
         done = STEPS[i].run(g) && gn_gltf_check_time(g);
     }
     done = done && !g->failed;
+    *fit_px = done || !g->failed_part ? gn_gltf_fit_pictures(g) : 0;
     holder->scene.memory.bytes = holder->arena.used + sizeof *holder;
     holder->scene.memory.loading_bytes = g->memory.most_bytes + sizeof *holder;
     for (size_t i = 0; i < g->file.buffer_count; i++) gn_blob_finish(g, &g->file.buffers[i]);
     json_decref(g->file.json);
     gn_arena_finish(&g->memory.step);
     gn_arena_finish(&g->memory.load);
-    free(g->folder);
     if (done) return &holder->scene;
     gn_scene_destroy(&holder->scene);
     return NULL;
+}
+
+/* Once more, with what is said of it then, while its pictures are too large for the limits. */
+static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {
+    struct gn_scene *scene;
+    struct gn_warnings before = {0};
+    uint32_t fit_px = 0;
+    if (g->warnings) before = *g->warnings;
+    g->hash_key = gn_hash_key_make();
+    g->end_ns = gn_clock_thread_cpu_ns() + (int64_t)g->limits.seconds * GN_NS_PER_S;
+    const struct gn_gltf begin = *g;
+    while (scene = load_once(g, data, size, &fit_px), fit_px > 0) {
+        const struct gn_gltf_pictures over = g->pictures;
+        gn_scene_destroy(scene);
+        *g = begin;
+        g->limits.texture_px = fit_px;
+        g->pictures.loads = over.loads + 1;
+        if (g->err) *g->err = (struct gn_err){0};
+        if (g->warnings) *g->warnings = before;
+        gn_warn(g->warnings,
+                "%s: its pictures are over the limit %s=%" PRIu64 ": the largest are halved until "
+                "no side is longer than %" PRIu32 " pixels",
+                g->path, over.over, over.over_mb, fit_px);
+    }
+    free(g->folder);
+    return scene;
 }
 
 struct gn_scene *gn_scene_load_bytes(const char *label, const void *data, size_t size,

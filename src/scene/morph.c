@@ -10,28 +10,15 @@ static const char *const semantics[PARTS] = {"POSITION", "NORMAL", "TANGENT"};
 
 /* The accessor of one part of a target; -1: none. */
 static int32_t find_part(struct gn_gltf *g, const struct gn_at *target, int part, size_t count) {
-    const int32_t index =
-        gn_at_ref(g, target, semantics[part], g->file.accessor_count, "accessors");
-    const struct gn_accessor *a = gn_gltf_accessor(g, index);
-    struct gn_at at = gn_at_any(target, semantics[part]);
-    if (!a) return -1;
-    if (a->components != 3)
-        gn_gltf_fail(g, &at, "accessor %d has %d components, must be VEC3", index, a->components);
-    else if (a->component == GN_U32)
-        gn_gltf_fail(g, &at, "accessor %d has component type %d, which is not allowed for it",
-                     index, a->component);
-    else if (a->count != count)
-        gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, count);
-    return g->failed ? -1 : index;
+    const struct gn_attribute_row shape = {
+        .components_min = 3, .components = 3, .types = ~(1U << (GN_U32 - GN_I8))};
+    return gn_gltf_attribute(g, target, semantics[part], &shape, count);
 }
 
 /* 3 floats of each vertex, into vec4. */
 static void put_deltas(const struct gn_accessor *a, const uint32_t *source, size_t count,
                        vec4 *out) {
-    if (source)
-        gn_accessor_gather(a, 4, source, count, out[0]);
-    else
-        gn_accessor_floats(a, 4, out[0]);
+    gn_accessor_gather(a, 4, source, count, out[0]);
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++)
             if (!(fabsf(out[i][k]) < 1e9f)) out[i][k] = 0;

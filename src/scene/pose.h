@@ -113,6 +113,11 @@ void gn_unit(vec3 v);
 void gn_pose_vertex(const struct gn_pose *pose, uint32_t item, uint32_t vertex, double out[3],
                     double normal[3]);
 void gn_pose_corner(const struct gn_pose *pose, uint32_t item, uint32_t vertex, vec3 out);
+/* ray.c: how far off the first surface is that is seen along a line, not nearer than least_m;
+ * along: unit. INFINITY: none. Blended surfaces and the holes of masked ones count, too. It looks
+ * at each triangle of the items on the line. */
+float gn_pose_surface_m(const struct gn_pose *pose, const vec3 from_ws, const vec3 along,
+                        float least_m);
 /* Exact, where gn_pose_item.box_ws may be larger. */
 struct gn_box gn_pose_tight_box(const struct gn_pose *pose, uint32_t item);
 

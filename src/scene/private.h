@@ -138,6 +138,12 @@ struct gn_gltf_primitives { /* of the meshes in use, mesh by mesh, and what they
     struct gn_vertices *vertices;
     size_t count, vertices_count;
 };
+/* What a picture takes: pixels and bytes that stay, those of decoding it, those on the GPU. */
+struct gn_picture_need {
+    uint32_t px[2];
+    uint64_t kept, decoding, on_gpu;
+    uint64_t halved; /* bytes of decoding it if it is halved as well; 0: it cannot be */
+};
 struct gn_picture {  /* the source of images */
     uint64_t key[3]; /* a file: 1, device, inode; a part of a buffer: 2, address, size */
     size_t first;    /* number of the first image in the file that names it */
@@ -151,7 +157,13 @@ struct gn_gltf_pictures { /* each is read once, whether it can be or not */
     struct gn_picture *list;
     size_t count;
     struct gn_table table;
-    struct gn_glossy *glossy; /* by texture of the scene; NULL: none yet */
+    struct gn_glossy *glossy;      /* by texture of the scene; NULL: none yet */
+    struct gn_picture_need *needs; /* of pictures that may be shown, at their own size */
+    size_t need_count, room;       /* bytes left within memory_mb before the first of them */
+    uint64_t over_mb;
+    const char *over; /* the limit that all at their size are over; NULL: none */
+    uint32_t fit_px;  /* longer sides must be halved until they are within this */
+    int loads;        /* so many before this one were over */
 };
 struct gn_gltf_to_scene {             /* from numbers of the file to indices in the scene */
     int32_t *node;                    /* -1: not shown */
@@ -173,7 +185,7 @@ struct gn_gltf {
     int64_t end_ns;              /* of the thread's processor time: the limit on seconds */
     unsigned permille[2];        /* of the load, where its present step begins and ends */
     uint32_t getters;            /* calls since the start; every so often one looks at the clock */
-    bool failed;
+    bool failed, failed_part;    /* part: by what the file has at one place, by no limit */
     bool is_missing[GN_MISSING_COUNT];
     struct gn_gltf_memory memory;
     struct gn_gltf_file file;
@@ -197,6 +209,10 @@ bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format,
     __attribute__((format(printf, 3, 4)));
 void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+/* For a part of the file that a scene can do without, right after it was read by a load that had
+ * not failed before: where it is at fault, its failure becomes a warning that ends in `without`,
+ * the load goes on, and the answer is true. Failures by limits and of memory stay. */
+bool gn_gltf_spare(struct gn_gltf *g, const char *without);
 
 /* ---- gltf/memory.c ---- */
 
@@ -247,6 +263,12 @@ bool gn_scene_count_gpu(struct gn_gltf *g);     /* gpu.c */
 
 /* ---- helpers ---- */
 
+/* gltf/mesh.c: the accessor of an attribute, or of its part of a target, checked against the row
+ * and the number of vertices. -1: there is none, or it is at fault; this is a warning, but a
+ * failure where count is 0, as for positions. */
+int32_t gn_gltf_attribute(struct gn_gltf *g, const struct gn_at *of, const char *semantic,
+                          const struct gn_attribute_row *row, size_t count);
+
 /* load.c: of the file; NULL: none that can be reached. To be freed. */
 char *gn_scene_folder(const char *path);
 
@@ -277,7 +299,7 @@ size_t gn_accessor_element_size(const struct gn_accessor *a);
 /* All elements as floats, normalised as the accessor says, into out: components x count of them;
  * missing components stay as they are. */
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out);
-/* The same for the elements that source names, count of them. */
+/* The same for the elements that source names, count of them; NULL: for the first ones. */
 void gn_accessor_gather(const struct gn_accessor *a, size_t components, const uint32_t *source,
                         size_t count, float *out);
 /* All elements as numbers, into out: count of them. The accessor is of unsigned scalars. */
@@ -360,15 +382,19 @@ struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents);
 /* gltf/image.c: the scene's texture for one of the file, created at its first use; -1: none, or
  * dropped with a warning. kind: of its picture, where that is made smaller. */
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture, enum gn_scale_kind kind);
-/* gltf/memory.c: what a picture takes: pixels and bytes that stay, those of decoding it, those on
- * the GPU. */
-struct gn_picture_need {
-    uint32_t px[2];
-    uint64_t kept, decoding, on_gpu;
-};
-/* Fails where that is over a limit. */
+/* gltf/memory.c: how often sides must be halved to be within most_px; 0: that is no limit. */
+uint32_t gn_gltf_halvings(const uint32_t px[2], uint32_t most_px);
+/* Fails where the picture is over a limit. whole: the same at its own size. Where pictures would
+ * fit if they were halved, all that follow fail, too: what they need is noted, and the scene is
+ * loaded again with smaller ones (gn_gltf_fit_pictures). */
 bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
-                          struct gn_err *err);
+                          const struct gn_picture_need *whole, struct gn_err *err);
+/* At the end of a load: the longest side with which all pictures are within the limits; 0: they are
+ * as they were loaded, or will not be. */
+uint32_t gn_gltf_fit_pictures(const struct gn_gltf *g);
+/* They are over that limit. False: they have been loaded again for that often enough. */
+bool gn_gltf_halve_pictures(struct gn_gltf *g, const char *limit, uint64_t mb);
+
 /* The time of decoding it, as texels. */
 uint64_t gn_gltf_picture_work(const struct gn_picture_need *need);
 /* Counts a picture that was decoded. */

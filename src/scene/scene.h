@@ -386,8 +386,9 @@ struct gn_scene_limits {
     uint64_t maps_mb;             /* 384: what shadows take on the GPU in one frame */
     uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances, in the picture and
                                      in the maps of lights; an item counts as 100 there */
-    uint64_t decoded_mb;          /* 1024: decoded pictures, with what decoding one takes; a picture
-                                     over it is left out with a warning */
+    uint64_t decoded_mb;          /* 1024: decoded pictures, with what decoding one takes. Over it,
+                                     or gpu_mb or memory_mb, the largest pictures are halved until
+                                     all fit, with a warning; what still does not is left out */
     uint64_t ahead_percent;       /* 10: programs of modes that were not shown yet, of the memory
                                      that is in use without them */
     const atomic_bool *cancel;    /* another thread sets it to end the load, which fails; or NULL */

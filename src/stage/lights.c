@@ -32,6 +32,8 @@ static bool is_automatic(const struct gn_option_row *row, const void *value) {
 /* From a value of a setting, by the row's kind, to the field of an entry. */
 static void set_entry(struct gn_light_opts *entry, const struct gn_option_row *row,
                       const void *value) {
+    /* the made light's is its environment's then */
+    if (row->target == offsetof(struct gn_light_opts, radius) && is_automatic(row, value)) return;
     union {
         float number;
         int whole;

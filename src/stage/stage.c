@@ -114,11 +114,27 @@ static bool choose_variant(const struct gn_settings *o, const struct gn_scene *s
 /* Points of a lamp in a mask while something moves: their error is .04 in penumbrae. */
 enum { GATHER_POINTS = 16 };
 
-/* A camera, or light:NAME. */
-static bool choose_camera(const struct gn_settings *o, const struct gn_scene *scene,
+/* The first camera, or a made one where that sees too little of the model. */
+static void choose_automatic_camera(const struct gn_scene *scene, int clips,
+                                    struct gn_frame_view_opts *view) {
+    struct gn_pose pose;
+    bool cuts;
+    gn_pose_init(&pose, scene, clips);
+    view->camera = 0;
+    if (!scene->added.camera && gn_framing_share(&pose, 0, &cuts) < GN_FRAMING_LEAST_SHARE)
+        view->framing.made_plus_1 = 1;
+    gn_pose_finish(&pose);
+}
+
+/* A camera, light:NAME or auto. */
+static bool choose_camera(const struct gn_settings *o, const struct gn_scene *scene, int clips,
                           struct gn_frame_view_opts *view, struct gn_err *err) {
     static const char prefix[] = "light:";
     const char *name = o->scene.camera;
+    if (name && strcmp(name, "auto") == 0) {
+        choose_automatic_camera(scene, clips, view);
+        return true;
+    }
     const bool of_light = name && strncmp(name, prefix, sizeof prefix - 1) == 0;
     const int camera = gn_scene_find_camera(scene, name, of_light ? NULL : err);
     view->camera = camera >= 0 ? camera : 0;
@@ -227,7 +243,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     const struct gn_scene_limits limits = gn_stage_limits(o);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;
-    if (choose_camera(o, scene, &look->frame_opts.view, err)) return true;
+    if (choose_camera(o, scene, look->clips, &look->frame_opts.view, err)) return true;
     return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
 }
 

@@ -123,11 +123,38 @@ static void test_bad_data_is_refused_by_one_line(void **state) {
     expect_refused("a.glb: meshes[0]: the Draco-compressed data is damaged");
     json_object_set_new(compressed_of(), "bufferView", json_integer(9));
     expect_refused("a.glb: meshes[0]: no Draco-compressed data");
-    json_object_set_new(json_object_get(compressed_of(), "attributes"), "NORMAL", json_integer(7));
-    expect_refused("a.glb: meshes[0]: an attribute is not in the Draco-compressed data");
-    json_object_set_new(json_object_get(compressed_of(), "attributes"), "COLOR_0", json_integer(0));
-    expect_refused("a.glb: meshes[0]: an attribute is not in the Draco-compressed data");
+    json_t *ids = json_object_get(compressed_of(), "attributes");
+    json_object_set_new(ids, "POSITION", json_integer(7));
+    expect_refused("a.glb: meshes[0]: POSITION is not in the Draco-compressed data");
     gn_maker_finish(&maker);
+}
+
+/* An id that the data has not, one that is no number, and an attribute without an accessor. */
+static void test_an_attribute_that_draco_lacks_is_left_out(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *id;
+    } cases[] = {{"NORMAL", "7"}, {"NORMAL", "null"}, {"COLOR_0", "0"}};
+    for (int i = 0; i < 3; i++) {
+        struct gn_err err = {0};
+        struct gn_warnings warnings = {0};
+        char said[120];
+        gn_maker_init(&maker);
+        gn_maker_draco(&maker, true);
+        json_object_set_new(json_object_get(compressed_of(), "attributes"), cases[i].name,
+                            json_loads(cases[i].id, JSON_DECODE_ANY, NULL));
+        put_glb("a.glb");
+        struct gn_scene *scene = gn_stage_read(help_import_path("a.glb"), &limits, &warnings, &err);
+        if (!scene) fail_msg("%s", err.text);
+        snprintf(said, sizeof said,
+                 "a.glb: meshes[0]: %s is not in the Draco-compressed data; shown without it",
+                 cases[i].name);
+        assert_int_equal(warnings.count, 1);
+        if (!strstr(warnings.text[0], said)) fail_msg("'%s'", warnings.text[0]);
+        assert_int_equal(scene->geometries[0].index_count, 6);
+        assert_true(scene->buffers.normals[1] > .99f); /* of the faces */
+        gn_scene_destroy(scene);
+    }
 }
 
 /* ---- what is kept ---- */
@@ -256,6 +283,7 @@ int main(void) {
         cmocka_unit_test(test_a_gltf_with_a_data_uri),
         cmocka_unit_test(test_a_gltf_beside_its_buffer_and_picture),
         cmocka_unit_test(test_bad_data_is_refused_by_one_line),
+        cmocka_unit_test(test_an_attribute_that_draco_lacks_is_left_out),
         cmocka_unit_test(test_an_output_is_kept_by_the_content_of_its_file),
         cmocka_unit_test(test_a_damaged_kept_file_is_made_again),
         cmocka_unit_test(test_without_a_folder_nothing_is_kept),

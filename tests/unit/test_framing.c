@@ -1,5 +1,6 @@
 /* Cameras in pictures of any shape. */
 #include <math.h>
+#include <stdio.h>
 
 #include "framing_help.h"
 #include "unit/scene_help.h"
@@ -286,6 +287,68 @@ static void test_a_given_place_takes_that_of_the_camera(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* The cube of 2 m through a camera at that node. */
+static struct gn_scene *load_seen(const char *camera, const char *node) {
+    char json[300];
+    snprintf(json, sizeof json, "[%s]", camera);
+    gn_maker_set(&maker, "cameras", json);
+    gn_maker_cube(&maker);
+    snprintf(json, sizeof json, "[{'mesh':1},%s]", node);
+    gn_maker_set(&maker, "nodes", json);
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+    return load();
+}
+
+static void test_how_much_of_the_model_a_camera_sees(void **state) {
+    (void)state;
+    static const char eye[] = "{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1}}",
+                      flat[] = "{'type':'orthographic','orthographic':"
+                               "{'xmag':1.7,'ymag':0.5,'znear':0.1,'zfar':20}}",
+                      near_sighted[] = "{'type':'perspective','perspective':"
+                                       "{'yfov':0.8,'znear':0.1,'zfar':8.5}}";
+    static const struct {
+        const char *camera, *node;
+        float least, most;
+        bool cuts;
+    } cases[] = {
+        {eye, "{'camera':0,'translation':[0,0,9]}", 1, 1, false},
+        {eye, "{'camera':0,'translation':[0,0,-9]}", 0, 0, true},
+        {eye, "{'camera':0,'translation':[0,0,2]}", .2f, .8f, true},
+        {eye, "{'camera':0,'translation':[0,0,0.9]}", .1f, .6f, false}, /* inside */
+        {flat, "{'camera':0,'translation':[0,0,9]}", .9f, 1, true},     /* 1.9 m high, then */
+        {near_sighted, "{'camera':0,'translation':[0,0,9]}", .2f, .3f, true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        bool cuts;
+        struct gn_pose pose;
+        if (i > 0) setup(NULL);
+        struct gn_scene *scene = load_seen(cases[i].camera, cases[i].node);
+        gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+        const float share = gn_framing_share(&pose, 0, &cuts);
+        if (!(share >= cases[i].least && share <= cases[i].most) || cuts != cases[i].cuts)
+            fail_msg("case %zu: %g, %d", i, (double)share, cuts);
+        gn_pose_finish(&pose);
+        gn_scene_destroy(scene);
+    }
+}
+
+static void test_a_camera_that_is_replaced_shows_all(void **state) {
+    (void)state;
+    struct gn_scene *scene =
+        load_seen("{'type':'orthographic','orthographic':{'xmag':1,'ymag':1,'znear':1,'zfar':2}}",
+                  "{'camera':0,'translation':[0,0,-9]}");
+    assert_false(scene->added.camera);
+    for (int i = 0; i < SHAPE_COUNT; i++) {
+        const struct gn_framing_opts opts = {.aspect = SHAPES[i], .made_plus_1 = 1};
+        const float reach = help_framing_reach(scene, GN_POSE_DEFAULT, &opts);
+        if (!(reach <= .95f && reach > .87f)) fail_msg("%g", (double)reach);
+    }
+    struct gn_framing f;
+    frame_at(scene, &(struct gn_framing_opts){.made_plus_1 = 2}, &f); /* another one is */
+    assert_at(&f, 0, 0, -9);
+    gn_scene_destroy(scene);
+}
+
 static void test_an_added_camera_still_shows_all_from_a_given_side(void **state) {
     (void)state;
     add_box("{'mesh':1,'scale':[5,1,1],'translation':[3,2,1]}");
@@ -322,6 +385,8 @@ int main(void) {
         cmocka_unit_test_setup(test_round_things_do_not_touch_the_border, setup),
         cmocka_unit_test_setup(test_a_scene_with_nothing_to_see_has_a_camera_too, setup),
         cmocka_unit_test_setup(test_a_given_place_takes_that_of_the_camera, setup),
+        cmocka_unit_test_setup(test_how_much_of_the_model_a_camera_sees, setup),
+        cmocka_unit_test_setup(test_a_camera_that_is_replaced_shows_all, setup),
         cmocka_unit_test_setup(test_an_added_camera_still_shows_all_from_a_given_side, setup),
         cmocka_unit_test_setup(test_a_fade_between_clips_takes_the_camera_along, setup),
         cmocka_unit_test_setup(test_a_narrow_picture_keeps_the_horizontal_angle, setup),

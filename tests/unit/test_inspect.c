@@ -6,6 +6,7 @@
 #include <jansson.h>
 
 #include "cli/inspect.h"
+#include "stage/lights.h"
 #include "unit/scene_help.h"
 
 static struct gn_scene *scene;
@@ -21,7 +22,27 @@ static int teardown(void **state) {
 static void inspect(void) {
     scene = gn_maker_load(&maker, &warnings, &err);
     if (!scene) fail_msg("%s", err.text);
-    gn_inspect_build(&in, "t", scene, 0, &warnings);
+    gn_inspect_build(&in, "t", scene, NULL, &warnings);
+}
+
+static json_t *report(void) {
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    assert_true(gn_inspect_print_json(&in, file, &err));
+    rewind(file);
+    json_t *all = json_loadf(file, 0, NULL);
+    fclose(file);
+    assert_non_null(all);
+    return all;
+}
+
+static char *print(void) {
+    char *text = NULL;
+    size_t size;
+    FILE *file = open_memstream(&text, &size);
+    gn_inspect_print(&in, file);
+    fclose(file);
+    return text;
 }
 
 static void assert_advice(const char *part) {
@@ -141,9 +162,9 @@ static void test_a_light_over_triangles_per_frame_is_named(void **state) {
     (void)state;
     set_lights(1, "{'type':'point','intensity':9}", 2);
     inspect();
-    gn_inspect_build(&in, "t", scene, 700, &warnings);
+    gn_inspect_build(&in, "t", scene, &(struct gn_frame_shadow_opts){.triangles = 700}, &warnings);
     assert_int_equal(in.warnings->count, 0);
-    gn_inspect_build(&in, "t", scene, 699, &warnings);
+    gn_inspect_build(&in, "t", scene, &(struct gn_frame_shadow_opts){.triangles = 699}, &warnings);
     assert_int_equal(in.warnings->count, 1);
     assert_string_equal(in.warnings->text[0], "light 'light 0' casts no shadow: its maps are over "
                                               "the limit triangles_per_frame=699");
@@ -201,6 +222,42 @@ static void test_a_deep_camera_is_noticed(void **state) {
     assert_no_advice("no camera");
 }
 
+/* The square of 2 m, through one camera or two of the same kind, the first of them named. */
+static void inspect_through(const char *cameras) {
+    char json[400];
+    gn_maker_add(&maker, "cameras",
+                 "{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1,'zfar':100}}");
+    snprintf(json, sizeof json, "[{'mesh':0},%s]", cameras);
+    gn_maker_set(&maker, "nodes", json);
+    gn_maker_set(&maker, "scenes",
+                 strstr(cameras, "},{") ? "[{'nodes':[0,1,2]}]" : "[{'nodes':[0,1]}]");
+    inspect();
+}
+
+static void test_a_camera_that_misses_the_model_is_noticed(void **state) {
+    (void)state;
+    inspect_through("{'name':'eye','camera':0,'translation':[0,1,-9]}");
+    assert_advice("camera 'eye' sees 0 % of the model");
+    assert_no_advice("no camera");
+}
+
+static void test_a_camera_that_cuts_the_model_is_noticed(void **state) {
+    (void)state;
+    inspect_through("{'name':'eye','camera':0,'translation':[1,0.5,2.5]}");
+    assert_advice("camera 'eye' cuts the model");
+}
+
+static void test_cameras_that_show_it_and_details_are_no_fault(void **state) {
+    (void)state;
+    inspect_through("{'name':'eye','camera':0,'translation':[0,1,9]}");
+    assert_no_advice("camera 'eye'");
+    teardown(NULL);
+    setup(NULL);
+    inspect_through("{'name':'eye','camera':0,'translation':[1,0.5,2.5]},"
+                    "{'camera':0,'translation':[0,1,9]}");
+    assert_no_advice("camera 'eye'");
+}
+
 static void test_a_mask_without_holes_is_noticed(void **state) {
     (void)state;
     set_material("{'name':'wall','alphaMode':'MASK'}");
@@ -233,29 +290,40 @@ static void test_the_unseen_floor_is_nobodys_fault(void **state) {
     gn_maker_finish(&maker);
     if (!scene) fail_msg("%s", err.text);
     assert_true(scene->added.floor);
-    gn_inspect_build(&in, "t", scene, 0, &warnings);
+    gn_inspect_build(&in, "t", scene, NULL, &warnings);
     assert_no_advice("'floor'");
+
+    /* nor does what is made count as the file's */
+    static const char *const counts[] = {"nodes", "items", "batches", "geometries", NULL};
+    json_t *all = report(), *of = json_object_get(all, "counts");
+    for (int i = 0; counts[i]; i++)
+        assert_int_equal(json_integer_value(json_object_get(of, counts[i])), 1);
+    assert_int_equal(json_integer_value(json_object_get(of, "vertices")), 4);
+    assert_int_equal(json_integer_value(json_object_get(of, "triangles")), 2);
+    assert_int_equal(json_integer_value(json_object_get(of, "textures")), 0);
+    assert_int_equal(json_array_size(json_object_get(all, "images")), 0);
+    of = json_object_get(all, "materials");
+    assert_int_equal(json_integer_value(json_object_get(of, "blend")), 0);
+    assert_int_equal(json_integer_value(json_object_get(of, "count")), 1);
+    assert_true(json_is_true(json_object_get(all, "floor_made")));
+    json_decref(all);
+    char *text = print();
+    assert_non_null(strstr(text, "1 geometries, 4 vertices, 2 triangles in all items"));
+    assert_non_null(strstr(text, "materials   1: 1 opaque, 0 mask, 0 blend"));
+    assert_non_null(strstr(text, "floor       unseen"));
+    assert_null(strstr(text, "Textures"));
+    free(text);
 }
 
 /* ---- the report ---- */
 
-static json_t *report(void) {
-    FILE *file = tmpfile();
-    assert_non_null(file);
-    assert_true(gn_inspect_print_json(&in, file, &err));
-    rewind(file);
-    json_t *all = json_loadf(file, 0, NULL);
-    fclose(file);
-    assert_non_null(all);
-    return all;
-}
-
 static void test_json_has_its_fields(void **state) {
     (void)state;
     static const char *const fields[] = {
-        "file",   "name",    "size_m",   "counts",           "materials",  "images",
-        "lights", "cameras", "clips",    "variants",         "hemisphere", "cost",
-        "limits", "missing", "warnings", "warnings_dropped", "advice",     "advice_dropped"};
+        "file",      "name",    "size_m",   "counts",           "materials",  "images",
+        "lights",    "cameras", "clips",    "variants",         "hemisphere", "cost",
+        "limits",    "missing", "warnings", "warnings_dropped", "advice",     "advice_dropped",
+        "floor_made"};
     set_lights(1, "{'type':'spot','intensity':50}", 2);
     inspect();
     json_t *all = report();
@@ -267,6 +335,36 @@ static void test_json_has_its_fields(void **state) {
     assert_string_equal(json_string_value(json_object_get(light, "unit")), "candela");
     assert_true(json_real_value(json_object_get(light, "intensity")) == 50);
     json_decref(all);
+}
+
+/* A made light shines as its environment has it, until the configuration says otherwise. */
+static void test_a_made_light_is_printed_as_it_is_used(void **state) {
+    (void)state;
+    inspect();
+    char *text = print();
+    assert_non_null(strstr(text, "2.8 lux, shadow cone, radius 0.00465"));
+    free(text);
+    struct gn_frame_shadow_opts lights = {0};
+    gn_stage_set_key(&lights, scene,
+                     &(struct gn_environment_key){.color = {1, .5f, .25f}, .radius = .24f}, 2);
+    gn_inspect_build(&in, "t", scene, &lights, &warnings);
+    text = print();
+    assert_non_null(strstr(text, "2 lux, shadow cone, radius 0.24"));
+    free(text);
+    json_t *all = report(), *light = json_array_get(json_object_get(all, "lights"), 0);
+    assert_float_equal(json_real_value(json_object_get(light, "gnomon_radius")), .24, 1e-6);
+    assert_float_equal(json_real_value(json_array_get(json_object_get(light, "color"), 1)), .5,
+                       1e-6);
+    json_decref(all);
+}
+
+static void test_a_light_of_the_file_is_printed_as_it_is_there(void **state) {
+    (void)state;
+    set_lights(1, "{'type':'directional','intensity':1}", 2);
+    inspect();
+    char *text = print();
+    assert_non_null(strstr(text, "1 lux, shadow by mode, radius 0.00465"));
+    free(text);
 }
 
 static void test_warnings_stand_in_the_report(void **state) {
@@ -283,11 +381,7 @@ static void test_text_moves_no_cursor(void **state) {
     (void)state;
     set_material("{'name':'a\\u001b[2J\\u202eb','alphaMode':'MASK'}");
     inspect();
-    char *text = NULL;
-    size_t size;
-    FILE *file = open_memstream(&text, &size);
-    gn_inspect_print(&in, file);
-    fclose(file);
+    char *text = print();
     for (const char *c = text; *c; c++) assert_true(*c == '\n' || (*c >= ' ' && *c < 0x7f));
     assert_non_null(strstr(text, "a\\u001b[2J\\u202eb"));
     assert_non_null(strstr(text, "2 triangles"));
@@ -310,11 +404,16 @@ int main(void) {
         TEST(test_millimetres_are_noticed),
         TEST(test_a_doll_house_is_noticed),
         TEST(test_a_deep_camera_is_noticed),
+        TEST(test_a_camera_that_misses_the_model_is_noticed),
+        TEST(test_a_camera_that_cuts_the_model_is_noticed),
+        TEST(test_cameras_that_show_it_and_details_are_no_fault),
         TEST(test_a_mask_without_holes_is_noticed),
         TEST(test_blend_without_transparency_is_opaque),
         TEST(test_glass_is_not_called_opaque),
         TEST(test_the_unseen_floor_is_nobodys_fault),
         TEST(test_json_has_its_fields),
+        TEST(test_a_made_light_is_printed_as_it_is_used),
+        TEST(test_a_light_of_the_file_is_printed_as_it_is_there),
         TEST(test_warnings_stand_in_the_report),
         TEST(test_text_moves_no_cursor),
     };

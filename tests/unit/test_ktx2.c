@@ -260,6 +260,10 @@ static void test_levels_are_within_memory_mb(void **state) {
     assert_int_equal(scene->pictures.image_count, 0);
     assert_non_null(strstr(warnings.text[0], "exceeds the limit memory_mb"));
     gn_scene_destroy(scene);
+    const struct gn_scene_limits of_gpu = {.gpu_mb = 8}; /* there is no smaller level */
+    assert_null(gn_scene_load_bytes("t", glb.data, glb.size, &of_gpu, &warnings, &err));
+    assert_string_equal(err.text,
+                        "t: textures of 16 MB and buffers of 1 MB are over the limit gpu_mb=8");
     free(glb.data);
     gn_maker_finish(&maker);
 }

@@ -1,4 +1,4 @@
-/* [light "NAME"] of a configuration, and what belongs to lights, applied to a scene. */
+/* [light "NAME"] of a configuration, what belongs to lights, and the camera, applied to a scene. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -138,6 +138,19 @@ static void the_radius_of_all_is_that_of_the_made_light(void **state) {
     assert_true(of_light(0)->radius == 0.1f);
     assert_true(build_look("[light \"key light\"]\nlight_radius = 0.1\n", "--light-radius", "0.2"));
     assert_true(of_light(0)->radius == 0.2f);
+
+    /* by itself it is that of the environment's key */
+    static const char *const automatic[] = {"", "[light]\nradius = auto\n",
+                                            "[light \"key light\"]\nlight_radius = auto\n"};
+    for (int i = 0; i < 3; i++) {
+        const struct gn_environment_key key = {.color = {1, 1, 1}, .radius = .24f};
+        struct gn_frame_shadow_opts *opts = &look.frame_opts.shadow;
+        assert_true(build_look(automatic[i], NULL, NULL));
+        *opts = (struct gn_frame_shadow_opts){0};
+        gn_stage_set_key(opts, scene, &key, 1);
+        gn_stage_set_lights(opts, options.settings, scene, &warnings);
+        assert_true(of_light(0)->radius == .24f && GN_LIGHT_HAS(of_light(0), radius));
+    }
 }
 
 static void assert_color(uint32_t light, float r, float g, float b) {
@@ -297,12 +310,40 @@ static int finish(void **state) {
     return clean(state);
 }
 
+static void an_automatic_camera_is_the_first_if_it_sees_the_model(void **state) {
+    (void)state;
+    for (int away = 0; away < 2; away++) {
+        struct gn_maker maker;
+        gn_maker_init(&maker);
+        gn_maker_square(&maker);
+        gn_maker_set(&maker, "cameras",
+                     "[{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1}}]");
+        gn_maker_set(&maker, "nodes",
+                     away ? "[{'mesh':0},{'camera':0,'translation':[0,1,-9]}]"
+                          : "[{'mesh':0},{'camera':0,'translation':[0,1,9]}]");
+        gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+        scene = gn_maker_load(&maker, NULL, &err);
+        if (!scene) fail_msg("%s", err.text);
+        assert_true(build_look("[scene]\ncamera = auto\n", NULL, NULL));
+        assert_int_equal(look.frame_opts.view.camera, 0);
+        assert_int_equal(look.frame_opts.view.framing.made_plus_1, away);
+        assert_true(build_look("", NULL, NULL)); /* by itself it is that of the file */
+        assert_int_equal(look.frame_opts.view.framing.made_plus_1, 0);
+        if (away == 0) gn_scene_destroy(scene);
+    }
+    gn_scene_destroy(scene);
+    make_scene(false); /* the made one is such a camera anyway */
+    assert_true(build_look("", "--camera", "auto"));
+    assert_int_equal(look.frame_opts.view.framing.made_plus_1, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_light_is_found_by_its_node_or_its_own_name, finish),
         cmocka_unit_test_teardown(automatic_of_one_beats_what_holds_for_all, finish),
         cmocka_unit_test_teardown(a_flag_beats_it, finish),
         cmocka_unit_test_teardown(a_name_that_no_light_has_is_one_warning, finish),
+        cmocka_unit_test_teardown(an_automatic_camera_is_the_first_if_it_sees_the_model, finish),
         cmocka_unit_test_teardown(the_radius_of_all_is_that_of_the_made_light, finish),
         cmocka_unit_test_teardown(a_light_has_a_colour_an_intensity_and_a_switch, finish),
         cmocka_unit_test_teardown(the_made_light_is_as_its_section_says, finish),

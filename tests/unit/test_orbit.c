@@ -3,10 +3,12 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
 
+#include "core/embedded.h"
 #include "frame/frame.h"
 #include "gltf_maker.h"
 
@@ -201,6 +203,95 @@ static void test_all_of_the_scene_is_seen_from_everywhere(void **state) {
         }
 }
 
+/* Of a scene with a lawn of 200 m, a box at its rim and one in front of the other side of that. */
+static void load_lawn(const char *nodes) {
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_cube(&maker);
+    gn_maker_set(&maker, "cameras",
+                 "[{'type':'perspective','perspective':{'yfov':1,'znear':0.1,'zfar':500}}]");
+    gn_maker_set(&maker, "nodes", nodes);
+    json_t *list = json_object_get(maker.root, "nodes"), *all = json_array();
+    for (size_t i = 0; i < json_array_size(list); i++)
+        json_array_append_new(all, json_integer((json_int_t)i));
+    json_object_set_new(json_array_get(json_object_get(maker.root, "scenes"), 0), "nodes", all);
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+    scene = gn_maker_load(&maker, NULL, &err);
+    if (!scene) fail_msg("%s", err.text);
+    gn_pose_init(&pose, scene, GN_POSE_NONE);
+}
+
+/* How far off a camera turns about, once it is moved. */
+static float turns_about_m(uint32_t camera) {
+    const struct gn_orbit o =
+        step((struct gn_orbit){0}, (struct gn_orbit_hand){.turn = {.01f, 0}}, camera);
+    struct gn_framing at;
+    return gn_orbit_view(&o, &pose, camera, &SHAPE, &at);
+}
+
+static void test_a_close_up_goes_round_what_it_shows(void **state) {
+    (void)state;
+    static const char rest[] = "{'mesh':0,'scale':[100,1,100]},"
+                               "{'camera':0,'translation':[80,1,6]},"
+                               "{'camera':0,'translation':[80,90,6],"
+                               "'rotation':[0.70710678,0,0,0.70710678]}]";
+    char nodes[400];
+    static const struct {
+        const char *first;
+        float distance_m;
+    } cases[] = {
+        {"{'mesh':1,'translation':[80,1,0]}", 5},
+        {"{'mesh':1,'translation':[80,1,0],'scale':[1,1,-1]}", 5}, /* mirrored */
+        {"{'mesh':1,'translation':[80,1,0],'rotation':[0,1,0,0]}", 5},
+        {"{'mesh':0,'translation':[80,1,3],'rotation':[-0.70710678,0,0,0.70710678]},"
+         "{'mesh':1,'translation':[80,1,0]}",
+         5}, /* the back of a wall is not seen */
+        {"{'mesh':0,'translation':[80,1,3],'rotation':[0.70710678,0,0,0.70710678]},"
+         "{'mesh':1,'translation':[80,1,0]}",
+         3},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        snprintf(nodes, sizeof nodes, "[%s,%s", cases[i].first, rest);
+        load_lawn(nodes);
+        assert_near(turns_about_m(0), cases[i].distance_m, 1e-3f);
+    }
+    assert_near(turns_about_m(1), .5f * glm_vec3_distance(scene->box.min, scene->box.max),
+                1e-3f); /* the sky */
+
+    /* what is in the middle of the picture stays there */
+    const struct gn_orbit o =
+        step((struct gn_orbit){0}, (struct gn_orbit_hand){.turn = {.3f, .1f}}, 0);
+    struct gn_framing at;
+    vec3 middle = {80, 1, 3}, seen;
+    gn_orbit_view(&o, &pose, 0, &SHAPE, &at);
+    glm_mat4_mulv3(at.view_from_world, middle, 1, seen);
+    assert_near(seen[0], 0, 1e-3f);
+    assert_near(seen[1], 0, 1e-3f);
+    assert_near(seen[2], -3, 1e-3f);
+    const struct gn_orbit further = step(o, (struct gn_orbit_hand){.turn = {.4f, 0}}, 0);
+    assert_true(further.distance_m == o.distance_m);
+}
+
+/* The garden's camera shows all of it, the dial's what is in the middle of it. */
+static void test_the_default_scene_turns_about_its_dial(void **state) {
+    (void)state;
+    const struct gn_embedded *file = gn_embedded_find("sundial.glb");
+    struct gn_err err = {0};
+    if (!file) skip();
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+    scene = gn_scene_load_bytes("sundial", file->data, file->size, NULL, NULL, &err);
+    if (!scene) fail_msg("%s", err.text);
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    const int garden = gn_scene_find_camera(scene, "Garden", &err),
+              dial = gn_scene_find_camera(scene, "Dial", &err);
+    assert_true(turns_about_m((uint32_t)dial) < 4); /* the scene's radius is three times as long */
+    assert_near(turns_about_m((uint32_t)garden), 11.18f, .01f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_no_orbit_is_the_camera_itself),
@@ -212,6 +303,8 @@ int main(void) {
         cmocka_unit_test(test_the_hand_stays_within_limits),
         cmocka_unit_test(test_a_hand_gone_wild_leaves_numbers),
         cmocka_unit_test(test_all_of_the_scene_is_seen_from_everywhere),
+        cmocka_unit_test(test_a_close_up_goes_round_what_it_shows),
+        cmocka_unit_test(test_the_default_scene_turns_about_its_dial),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

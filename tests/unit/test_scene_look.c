@@ -256,11 +256,17 @@ static void test_textures_are_within_gpu_mb(void **state) {
         assert_int_equal(bytes, (both + 1) * (SIDE * SIDE * 4 * 4 / 3));
         gn_scene_destroy(scene);
         limits.gpu_mb--;
-        assert_null(gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err));
-        assert_string_equal(err.text, both ? "t: textures of 3 MB and buffers of 1 MB are over the "
-                                             "limit gpu_mb=2"
-                                           : "t: textures of 2 MB and buffers of 1 MB are over the "
-                                             "limit gpu_mb=1");
+        scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+        if (!scene) fail_msg("%s", err.text);
+        assert_int_equal(scene->pictures.images[0].width_px, SIDE / 2);
+        assert_string_equal(warnings.text[0],
+                            both ? "t: its pictures are over the limit gpu_mb=2: the largest are "
+                                   "halved until no side is longer than 256 pixels"
+                                 : "t: its pictures are over the limit gpu_mb=1: the largest are "
+                                   "halved until no side is longer than 256 pixels");
+        assert_int_equal(warnings.count, 1);
+        warnings.count = 0;
+        gn_scene_destroy(scene);
         free(glb.data);
     }
     gn_maker_finish(&maker);
@@ -268,29 +274,49 @@ static void test_textures_are_within_gpu_mb(void **state) {
     free(rgba);
 }
 
-/* Two pictures of 4 MB each, and what libpng takes. */
-static void test_pictures_are_within_decoded_mb(void **state) {
+/* Two pictures of 4 MB each, what libpng takes, and a small one, which stays as it is. */
+static void test_the_largest_pictures_are_halved_until_all_fit(void **state) {
     (void)state;
     uint8_t *rgba = calloc(1024 * 1024, 4);
-    struct gn_made png = gn_maker_png(1024, 1024, rgba);
+    struct gn_made png = gn_maker_png(1024, 1024, rgba), small = gn_maker_png(128, 64, rgba);
     for (int i = 0; i < 2; i++) add_picture(png.data, png.size);
+    add_picture(small.data, small.size);
     gn_maker_set(&maker, "materials",
                  "[{'pbrMetallicRoughness':{'baseColorTexture':{'index':0},"
-                 "'metallicRoughnessTexture':{'index':1}}}]");
+                 "'metallicRoughnessTexture':{'index':1}},'emissiveTexture':{'index':2}}]");
     struct gn_made glb = gn_maker_glb(&maker);
-    for (uint32_t mb = 8; mb <= 9; mb++) {
-        const struct gn_scene_limits limits = {.decoded_mb = mb};
+    static const struct {
+        const char *limit;
+        uint64_t mb;
+        uint32_t px; /* 0: no room for the decoder */
+    } cases[] = {{"decoded_mb", 9, 1024}, {"decoded_mb", 8, 512},  {"decoded_mb", 5, 256},
+                 {"decoded_mb", 4, 0},    {"memory_mb", 24, 1024}, {"memory_mb", 16, 512},
+                 {"memory_mb", 9, 512}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct gn_scene_limits limits = {0};
+        char said[200];
+        gn_scene_limits_set(&limits, cases[i].limit, cases[i].mb, NULL);
         warnings.count = 0;
         struct gn_scene *scene =
             gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
         if (!scene) fail_msg("%s", err.text);
-        assert_int_equal(scene->pictures.image_count, mb - 7);
-        if (mb == 8) assert_non_null(strstr(warnings.text[0], "over the limit decoded_mb=8"));
+        const struct gn_scene_pictures *p = &scene->pictures;
+        const bool smaller = cases[i].px > 0 && cases[i].px < 1024;
+        assert_int_equal(p->image_count, cases[i].px ? 3 : 1);
+        assert_int_equal(p->images[0].width_px, cases[i].px ? cases[i].px : 128);
+        assert_int_equal(p->images[p->image_count - 1].width_px, 128);
+        snprintf(said, sizeof said,
+                 "t: its pictures are over the limit %s=%u: the largest are halved until no side "
+                 "is longer than %u pixels",
+                 cases[i].limit, (unsigned)cases[i].mb, (unsigned)cases[i].px);
+        assert_int_equal(warnings.count, cases[i].px ? smaller : 2);
+        if (smaller) assert_string_equal(warnings.text[0], said);
         gn_scene_destroy(scene);
     }
     gn_maker_finish(&maker);
     free(glb.data);
     free(png.data);
+    free(small.data);
     free(rgba);
 }
 
@@ -422,7 +448,8 @@ int main(void) {
         cmocka_unit_test_setup(test_broken_pictures_cost_a_warning, setup_with_material),
         cmocka_unit_test_setup(test_broken_pictures_keep_no_memory, setup_with_material),
         cmocka_unit_test_setup(test_textures_are_within_gpu_mb, setup_with_material),
-        cmocka_unit_test_setup(test_pictures_are_within_decoded_mb, setup_with_material),
+        cmocka_unit_test_setup(test_the_largest_pictures_are_halved_until_all_fit,
+                               setup_with_material),
         cmocka_unit_test_setup(test_a_damaged_view_is_decoded_once, setup_with_material),
         cmocka_unit_test_setup(test_missing_picture_file, setup_with_material),
         cmocka_unit_test_setup(test_later_work_is_named_once, setup_with_material),

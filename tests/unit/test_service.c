@@ -1,6 +1,7 @@
 /* What a supervisor hears, on a socket of our own. */
 #include "kiosk/service.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -228,7 +229,39 @@ static void test_logs_when_it_waits_and_when_a_picture_comes(void **state) {
     gn_service_close(&service);
 }
 
-static void test_logs_into_the_journal_alone(void **state) {
+/* Opens it while stderr is that file, a terminal or not. */
+static void open_with_stderr(struct gn_service *service, const char *file) {
+    const int own = dup(STDERR_FILENO), fd = open(file, O_RDWR | O_NOCTTY);
+    assert_true(fd >= 0);
+    dup2(fd, STDERR_FILENO);
+    open_it(service);
+    dup2(own, STDERR_FILENO);
+    close(own);
+    close(fd);
+}
+
+static void test_a_terminal_is_told_what_it_waits_for(void **state) {
+    (void)state;
+    struct gn_service service;
+    struct gn_screen screen = {.status = "waiting for a card"};
+    const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+    assert_true(grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("JOURNAL_STREAM");
+    open_with_stderr(&service, ptsname(terminal));
+    assert_string_equal(step_log(&service, &screen), "gnomon: waiting for a card\n");
+    assert_string_equal(step_log(&service, &screen), "");
+    screen = (struct gn_screen){.what = "DP-1 640x480@60.00 atomic", .counts.shown = 1};
+    assert_string_equal(step_log(&service, &screen),
+                        "gnomon: picture on DP-1 640x480@60.00 atomic\n");
+    open_with_stderr(&service, ptsname(terminal)); /* the picture itself says that it is there */
+    assert_string_equal(step_log(&service, &screen), "");
+    snprintf(screen.status, sizeof screen.status, "another console is active");
+    assert_string_equal(step_log(&service, &screen), "gnomon: another console is active\n");
+    close(terminal);
+}
+
+static void test_logs_into_the_journal_but_not_into_a_file(void **state) {
     (void)state;
     struct gn_service service;
     const struct gn_screen screen = {.status = "waiting for a monitor"};
@@ -236,13 +269,13 @@ static void test_logs_into_the_journal_alone(void **state) {
     char stream[64];
     unsetenv("NOTIFY_SOCKET");
     unsetenv("JOURNAL_STREAM");
-    open_it(&service);
-    assert_string_equal(step_log(&service, &screen), ""); /* a terminal, or a file */
+    open_with_stderr(&service, "/dev/null");
+    assert_string_equal(step_log(&service, &screen), "");
     fstat(STDERR_FILENO, &info);
     snprintf(stream, sizeof stream, "%llu:%llu", (unsigned long long)info.st_dev,
              (unsigned long long)info.st_ino + 1); /* another stderr is the journal */
     setenv("JOURNAL_STREAM", stream, 1);
-    open_it(&service);
+    open_with_stderr(&service, "/dev/null");
     assert_string_equal(step_log(&service, &screen), "");
     snprintf(stream, sizeof stream, "%llu:%llu", (unsigned long long)info.st_dev,
              (unsigned long long)info.st_ino);
@@ -345,7 +378,10 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_without_a_supervisor, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_logs_when_it_waits_and_when_a_picture_comes, set_up,
                                         tear_down),
-        cmocka_unit_test_setup_teardown(test_logs_into_the_journal_alone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_a_terminal_is_told_what_it_waits_for, set_up,
+                                        tear_down),
+        cmocka_unit_test_setup_teardown(test_logs_into_the_journal_but_not_into_a_file, set_up,
+                                        tear_down),
         cmocka_unit_test_setup_teardown(test_addresses_that_are_none, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_a_still_picture_keeps_the_watchdog_quiet, set_up,
                                         tear_down),

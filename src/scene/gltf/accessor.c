@@ -216,14 +216,14 @@ static void read_element(const struct gn_accessor *a, size_t index, size_t n, fl
 }
 
 void gn_accessor_floats(const struct gn_accessor *a, size_t components, float *out) {
-    const size_t n = a->components < components ? a->components : components;
-    for (size_t i = 0; i < a->count; i++) read_element(a, i, n, out + i * components);
+    gn_accessor_gather(a, components, NULL, a->count, out);
 }
 
 void gn_accessor_gather(const struct gn_accessor *a, size_t components, const uint32_t *source,
                         size_t count, float *out) {
     const size_t n = a->components < components ? a->components : components;
-    for (size_t i = 0; i < count; i++) read_element(a, source[i], n, out + i * components);
+    for (size_t i = 0; i < count; i++)
+        read_element(a, source ? source[i] : i, n, out + i * components);
 }
 
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out) {

@@ -43,14 +43,6 @@ static const struct format *format_of(const void *data, size_t size) {
     return NULL;
 }
 
-/* Halves the longer side until it fits; false: it fits as it is. */
-static bool shrink_px(const struct gn_gltf *g, const uint32_t px[2], uint32_t to[2]) {
-    uint32_t level = 0, longer = px[0] > px[1] ? px[0] : px[1];
-    while (g->limits.texture_px > 0 && gn_level_px(longer, level) > g->limits.texture_px) level++;
-    for (int k = 0; k < 2; k++) to[k] = gn_level_px(px[k], level);
-    return level > 0;
-}
-
 /* Into the scene's memory, or, if it is to be scaled, by way of the system's. */
 static bool read_pixels(struct gn_gltf *g, const struct gn_blob *blob,
                         const struct gn_picture_need *whole, const uint32_t px[2],
@@ -72,18 +64,26 @@ static bool read_pixels(struct gn_gltf *g, const struct gn_blob *blob,
 static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_scale_kind kind,
                          struct gn_image *image, struct gn_err *err) {
     const struct format *format = format_of(blob->data, blob->size);
-    struct gn_picture_need need = {0};
+    struct gn_picture_need whole = {0};
     uint32_t px[2];
     uint8_t *rgba;
     if (!format) return gn_fail(err, OTHER_FORMAT);
-    if (!format->size(blob->data, blob->size, need.px, err)) return false;
-    const bool smaller = shrink_px(g, need.px, px);
-    const uint64_t texels = (uint64_t)px[0] * px[1];
-    need.kept = 4 * texels;
-    need.on_gpu = 4 * (texels + texels / 3);
-    need.decoding = format->work_bytes(blob->data, blob->size, need.px) +
-                    (smaller ? 4 * (uint64_t)need.px[0] * need.px[1] : 0);
-    if (!gn_gltf_picture_fits(g, &need, err)) return false;
+    if (!format->size(blob->data, blob->size, whole.px, err)) return false;
+    const uint64_t texels = (uint64_t)whole.px[0] * whole.px[1];
+    const uint32_t level = gn_gltf_halvings(whole.px, g->limits.texture_px);
+    whole.kept = 4 * texels;
+    whole.on_gpu = 4 * (texels + texels / 3);
+    whole.decoding = format->work_bytes(blob->data, blob->size, whole.px);
+    whole.halved = whole.decoding + whole.kept;
+    struct gn_picture_need need = whole;
+    for (int k = 0; k < 2; k++) px[k] = gn_level_px(whole.px[k], level);
+    if (level > 0) {
+        const uint64_t left = (uint64_t)px[0] * px[1];
+        need.kept = 4 * left;
+        need.on_gpu = 4 * (left + left / 3);
+        need.decoding = whole.halved;
+    }
+    if (!gn_gltf_picture_fits(g, &need, &whole, err)) return false;
     if (!read_pixels(g, blob, &need, px, kind, &rgba, err)) {
         g->damaged_work += gn_gltf_picture_work(&need);
         return false;

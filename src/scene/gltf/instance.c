@@ -15,13 +15,13 @@ static const struct gn_accessor *read_attribute(struct gn_gltf *g, const struct 
                                                 struct copies *copies) {
     int32_t index = gn_at_ref(g, attributes, key, g->file.accessor_count, "accessors");
     const struct gn_accessor *a = gn_gltf_accessor(g, index);
-    if (!a) return NULL;
     struct gn_at at = gn_at_any(attributes, key);
-    if (a->components != components || a->component == GN_U32)
+    if (a && (a->components != components || a->component == GN_U32))
         gn_gltf_fail(g, &at, "must be VEC%d of floats or normalized bytes or shorts", components);
-    else if (copies->count > 0 && copies->count != a->count)
+    else if (a && copies->count > 0 && copies->count != a->count)
         gn_gltf_fail(g, &at, "%zu elements, but another attribute has %zu", a->count,
                      copies->count);
+    if (gn_gltf_spare(g, "shown without it") || !a || g->failed) return NULL;
     copies->count = a->count;
     return a;
 }

@@ -6,21 +6,25 @@
 
 /* The first level whose sides are within texture_px, or the last one. */
 static uint32_t first_level(const struct gn_gltf *g, const struct gn_ktx2 *ktx2) {
-    const uint32_t longer = ktx2->px[0] > ktx2->px[1] ? ktx2->px[0] : ktx2->px[1];
-    uint32_t level = 0;
-    while (g->limits.texture_px > 0 && level + 1 < ktx2->level_count &&
-           gn_level_px(longer, level) > g->limits.texture_px)
-        level++;
-    return level;
+    const uint32_t level = gn_gltf_halvings(ktx2->px, g->limits.texture_px);
+    return level < ktx2->level_count ? level : ktx2->level_count - 1;
+}
+
+/* Levels from that one on. */
+static struct gn_picture_need need_of(const struct gn_ktx2 *ktx2, uint32_t first) {
+    struct gn_picture_need need = {.decoding = gn_ktx2_level_work_bytes(ktx2)};
+    for (int k = 0; k < 2; k++) need.px[k] = gn_level_px(ktx2->px[k], first);
+    need.kept = need.on_gpu =
+        gn_packing_all_bytes(ktx2->packing, need.px, ktx2->level_count - first);
+    need.halved = first + 1 < ktx2->level_count ? need.decoding + 1 : 0;
+    return need;
 }
 
 bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct gn_ktx2 *ktx2,
                     struct gn_image *image, struct gn_err *err) {
     const uint32_t first = first_level(g, ktx2), count = ktx2->level_count - first;
-    struct gn_picture_need need = {.decoding = gn_ktx2_level_work_bytes(ktx2)};
-    for (int k = 0; k < 2; k++) need.px[k] = gn_level_px(ktx2->px[k], first);
-    need.kept = need.on_gpu = gn_packing_all_bytes(ktx2->packing, need.px, count);
-    if (!gn_gltf_picture_fits(g, &need, err)) return false;
+    const struct gn_picture_need need = need_of(ktx2, first), whole = need_of(ktx2, 0);
+    if (!gn_gltf_picture_fits(g, &need, &whole, err)) return false;
     uint8_t *levels = gn_gltf_alloc(g, g->memory.scene, need.kept, 1);
     if (!levels || !gn_gltf_check_time(g)) return false;
     if (!gn_ktx2_read_levels(blob->data, blob->size, ktx2, first, levels, err)) {

@@ -24,8 +24,10 @@ void *gn_gltf_alloc(struct gn_gltf *g, struct gn_arena *arena, uint64_t count, s
     if (g->failed) return NULL;
     uint64_t bytes = 0;
     void *memory = NULL;
-    if (!__builtin_mul_overflow(count, size, &bytes) && bytes <= gn_gltf_room(g))
-        memory = gn_arena_alloc(arena, (size_t)count, size);
+    const bool fits = !__builtin_mul_overflow(count, size, &bytes) && bytes <= gn_gltf_room(g);
+    if (fits) memory = gn_arena_alloc(arena, (size_t)count, size);
+    if (!fits && g->pictures.need_count > 0)
+        gn_gltf_halve_pictures(g, "memory_mb", g->limits.memory_mb);
     if (!memory)
         gn_gltf_fail(g, NULL, "out of memory, or over the limit memory_mb=%" PRIu64,
                      g->limits.memory_mb);
@@ -55,19 +57,92 @@ char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
  * seven passes. A row counts as so many texels more. */
 enum { ROW_WORK = 128 };
 
+enum {
+    LOADS_MAX = 2,  /* with pictures too large, for their sake, then for that of the GPU */
+    LEAST_PX = 64,  /* no longer side gets smaller */
+    FOLLOWING = 16, /* what is loaded after pictures gets one of so many shares of the memory */
+};
+
+uint32_t gn_gltf_halvings(const uint32_t px[2], uint32_t most_px) {
+    const uint32_t longer = px[0] > px[1] ? px[0] : px[1];
+    uint32_t level = 0;
+    while (most_px > 0 && gn_level_px(longer, level) > most_px) level++;
+    return level;
+}
+
+bool gn_gltf_halve_pictures(struct gn_gltf *g, const char *limit, uint64_t mb) {
+    if (g->pictures.loads == LOADS_MAX) return false;
+    if (!g->pictures.over) {
+        g->pictures.over = limit;
+        g->pictures.over_mb = mb;
+    }
+    return true;
+}
+
+/* Whether those noted are within memory_mb and decoded_mb, with longer sides within most_px. */
+static bool all_fit(const struct gn_gltf *g, uint32_t most_px) {
+    const uint64_t room = g->pictures.room - g->pictures.room / FOLLOWING;
+    uint64_t kept = 0, on_gpu = 0;
+    bool fit = true;
+    for (size_t i = 0; i < g->pictures.need_count; i++) {
+        const struct gn_picture_need *whole = &g->pictures.needs[i];
+        const uint32_t level = whole->halved ? gn_gltf_halvings(whole->px, most_px) : 0;
+        const uint64_t decoding = level ? whole->halved : whole->decoding;
+        kept += whole->kept >> 2 * level;
+        const uint64_t its_gpu = whole->on_gpu >> 2 * level;
+        fit &= kept + on_gpu + (decoding > its_gpu ? decoding : its_gpu) <= room &&
+               kept + decoding <= g->limits.decoded_mb << 20;
+        on_gpu += its_gpu;
+    }
+    return fit;
+}
+
+uint32_t gn_gltf_fit_pictures(const struct gn_gltf *g) {
+    const uint32_t most = g->limits.texture_px;
+    uint32_t px = 0;
+    if (!g->pictures.over || g->pictures.fit_px) return g->pictures.fit_px;
+    for (size_t i = 0; i < g->pictures.need_count; i++)
+        for (int k = 0; k < 2; k++)
+            if (g->pictures.needs[i].px[k] > px) px = g->pictures.needs[i].px[k];
+    if (most > 0 && most < px) px = most;
+    do px = (px + 1) / 2;
+    while (px > LEAST_PX && !all_fit(g, px));
+    return px;
+}
+
+/* Notes what it takes, unless it cannot be shown at any size. */
+static void note_need(struct gn_gltf *g, const struct gn_picture_need *whole) {
+    struct gn_gltf_pictures *p = &g->pictures;
+    const uint64_t decoded = g->limits.decoded_mb << 20;
+    if (!p->needs) {
+        p->room = gn_gltf_room(g);
+        p->needs = gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof *p->needs);
+    }
+    const uint64_t least = whole->halved ? whole->halved : whole->kept + whole->decoding;
+    if (p->needs && p->need_count < g->file.image_count && least < p->room && least < decoded)
+        p->needs[p->need_count++] = *whole;
+}
+
 bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
-                          struct gn_err *err) {
+                          const struct gn_picture_need *whole, struct gn_err *err) {
     const uint32_t *px = need->px;
     const uint64_t texels = (uint64_t)px[0] * px[1];
     if (texels == 0) return gn_fail(err, "width or height is 0");
     if (texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
         return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
                        px[1], g->limits.texels);
+    note_need(g, whole);
+    if (g->failed || g->pictures.over) return false;
+    const bool halves = whole->halved && whole->halved < g->pictures.room &&
+                        whole->halved < g->limits.decoded_mb << 20;
     /* the decoder's memory is free again before the GPU has the picture */
     const uint64_t more = need->decoding > need->on_gpu ? need->decoding : need->on_gpu;
-    if (need->kept + more > gn_gltf_room(g)) return gn_fail(err, "exceeds the limit memory_mb");
+    if (need->kept + more > gn_gltf_room(g))
+        return !(halves && gn_gltf_halve_pictures(g, "memory_mb", g->limits.memory_mb)) &&
+               gn_fail(err, "exceeds the limit memory_mb");
     if (g->decoded_bytes + need->kept + need->decoding > g->limits.decoded_mb << 20)
-        return gn_fail(err, "not decoded: over the limit decoded_mb=%" PRIu64,
+        return !(halves && gn_gltf_halve_pictures(g, "decoded_mb", g->limits.decoded_mb)) &&
+               gn_fail(err, "not decoded: over the limit decoded_mb=%" PRIu64,
                        g->limits.decoded_mb);
     if (g->decode_work > (g->limits.memory_mb << 20) / 4)
         return gn_fail(err,

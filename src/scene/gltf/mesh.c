@@ -32,6 +32,26 @@ static void choose_joints(struct gn_gltf *g, const struct gn_at *primitive, bool
     }
 }
 
+int32_t gn_gltf_attribute(struct gn_gltf *g, const struct gn_at *of, const char *semantic,
+                          const struct gn_attribute_row *row, size_t count) {
+    const int32_t index = gn_at_ref(g, of, semantic, g->file.accessor_count, "accessors");
+    const struct gn_accessor *a = gn_gltf_accessor(g, index);
+    struct gn_at at = gn_at_any(of, semantic);
+    if (a && (a->components < row->components_min || a->components > row->components))
+        gn_gltf_fail(g, &at, "accessor %d has %d components, must be VEC%d", index, a->components,
+                     row->components_min);
+    else if (a && !(row->types >> (a->component - GN_I8) & 1))
+        gn_gltf_fail(g, &at, "accessor %d has component type %d, which is not allowed for it",
+                     index, a->component);
+    else if (a && a->count < count)
+        gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, count);
+    else if (a && a->count > count && count > 0)
+        gn_gltf_warn(g, &at, "%zu elements, but POSITION has %zu; the others are ignored", a->count,
+                     count);
+    if (count > 0 && gn_gltf_spare(g, "shown without it")) return -1;
+    return g->failed ? -1 : index;
+}
+
 /* The number of vertices, or 0: failed, or nothing to show (with a warning). Tangents are read
  * where there are normals and a normal map needs them. */
 static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, bool with_tangents,
@@ -44,10 +64,9 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         snprintf(uv_names[i], sizeof uv_names[i], "TEXCOORD_%" PRIu64, uv_sets[i]);
         semantics[GN_ATTRIBUTE_UV0 + i] = uv_names[i];
     }
-    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++)
-        out[i] = gn_at_ref(g, &attributes, semantics[i], g->file.accessor_count, "accessors");
-    if (!with_tangents || out[GN_ATTRIBUTE_NORMAL] < 0) out[GN_ATTRIBUTE_TANGENT] = -1;
-    choose_joints(g, primitive, with_skin, out);
+    for (int i = 0; i < GN_ATTRIBUTE_COUNT; i++) out[i] = -1;
+    out[GN_ATTRIBUTE_POSITION] =
+        gn_at_ref(g, &attributes, "POSITION", g->file.accessor_count, "accessors");
     struct gn_at draco = gn_at_object(g, primitive, "extensions.KHR_draco_mesh_compression");
     const struct gn_accessor *positions = gn_gltf_accessor(g, out[GN_ATTRIBUTE_POSITION]);
     if (g->failed) return 0;
@@ -64,19 +83,15 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
         return 0;
     }
     for (int i = 0; i < GN_ATTRIBUTE_COUNT && !g->failed; i++) {
-        const struct gn_attribute_row *row = &gn_attributes[i];
-        const struct gn_accessor *a = gn_gltf_accessor(g, out[i]);
-        if (!a) continue;
-        struct gn_at at = gn_at_any(&attributes, semantics[i]);
-        if (a->components < row->components_min || a->components > row->components)
-            gn_gltf_fail(g, &at, "accessor %d has %d components, must be VEC%d", out[i],
-                         a->components, row->components_min);
-        else if (!(row->types >> (a->component - GN_I8) & 1))
-            gn_gltf_fail(g, &at, "accessor %d has component type %d, which is not allowed for it",
-                         out[i], a->component);
-        else if (a->count != positions->count)
-            gn_gltf_fail(g, &at, "%zu elements, but POSITION has %zu", a->count, positions->count);
+        const bool unused =
+            i >= GN_ATTRIBUTE_JOINTS0 && i <= GN_ATTRIBUTE_WEIGHTS1
+                ? !with_skin
+                : i == GN_ATTRIBUTE_TANGENT && (!with_tangents || out[GN_ATTRIBUTE_NORMAL] < 0);
+        if (!unused)
+            out[i] = gn_gltf_attribute(g, &attributes, semantics[i], &gn_attributes[i],
+                                       i == GN_ATTRIBUTE_POSITION ? 0 : positions->count);
     }
+    if (!g->failed) choose_joints(g, primitive, with_skin, out);
     return g->failed ? 0 : positions->count;
 }
 

@@ -32,12 +32,21 @@ static void write_message(char text[TEXT_SIZE], const struct gn_at *at, const ch
 bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format, ...) {
     if (g->failed) return false;
     g->failed = true;
+    g->failed_part = at != NULL;
     char text[TEXT_SIZE];
     va_list args;
     va_start(args, format);
     write_message(text, at, format, args);
     va_end(args);
     return gn_fail(g->err, "%s: %s", g->path, text);
+}
+
+bool gn_gltf_spare(struct gn_gltf *g, const char *without) {
+    if (!g->failed || !g->failed_part) return false;
+    if (g->err) gn_warn(g->warnings, "%s; %s", g->err->text, without);
+    if (g->err) *g->err = (struct gn_err){0};
+    g->failed = false;
+    return true;
 }
 
 void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...) {
