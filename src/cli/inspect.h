@@ -11,7 +11,7 @@
 #include "options/settings.h"
 #include "scene/scene.h"
 
-enum { GN_INSPECT_WIDTH_PX = 1280, GN_INSPECT_HEIGHT_PX = 720 };
+enum { GN_INSPECT_WIDTH_PX = 1280, GN_INSPECT_HEIGHT_PX = 720, GN_INSPECT_CAMERAS = 64 };
 
 struct gn_scene_cost { /* of the default view: first camera, 1280x720, time 0, a GPU with all
                           capabilities */
@@ -30,6 +30,7 @@ struct gn_inspection {
     char limits[400];                   /* as gn_scene_limits_print() makes them, or "" */
     struct gn_light made_light; /* as it is used, if the scene has one: last in the scene's list */
     struct gn_scene_cost cost;
+    float depths_m[GN_INSPECT_CAMERAS][2]; /* of the first cameras: near and far plane, as drawn */
     struct gn_problem_list advice;
 };
 
@@ -58,7 +59,8 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to);
  *     gnomon_shadow|null, gnomon_map_px|null, gnomon_radius, gnomon_shadow_strength,
  *     gnomon_slide|null, made, settings}] (settings: those of [light "NAME"], as text;
  *     intensity: of the strongest channel; made: not in the file),
- * cameras [{name, type, yfov_deg|null, half_height_m|null, near_m, far_m|null, made}],
+ * cameras [{name, type, yfov_deg|null, half_height_m|null, near_m, far_m|null, drawn_near_m|null,
+ *     made}] (drawn_near_m: near_m, or farther out; null: not known, of the 65th and later),
  * clips [{name, duration_s, channels, on}] (on: plays by default),
  * variants [name] (of materials),
  * hemisphere {sky, ground, background},

@@ -11,7 +11,7 @@ enum { TEXTURE_MAX_PX = 4096, TRIANGLES_MAX = 500000, DRAWS_MAX = 500, TEXTURES_
 #define SIZE_MIN_M   0.05f
 #define SIZE_MAX_M   2000.0f
 #define CONE_MAX_DEG 80.0f
-#define DEPTH_RATIO  1e6f
+#define DEPTH_RATIO  3e4f
 
 static void check_surfaces(struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
@@ -151,10 +151,11 @@ void gn_inspect_advise(struct gn_inspection *in) {
     check_view(in);
     for (uint32_t i = 0; i < s->camera_count; i++) {
         const struct gn_camera *c = &s->cameras[i];
-        if (!c->orthographic && c->far_m > 0 && c->far_m / c->near_m > DEPTH_RATIO)
+        const float *depths_m = in->depths_m[i < GN_INSPECT_CAMERAS ? i : 0];
+        if (i < GN_INSPECT_CAMERAS && !c->orthographic && depths_m[1] / depths_m[0] > DEPTH_RATIO)
             gn_problem_add(&in->advice, "raise the near end (Blender: Clip Start)",
                            "camera '%s' sees from %g to %g m: far surfaces may flicker", c->name,
-                           (double)c->near_m, (double)c->far_m);
+                           (double)depths_m[0], (double)depths_m[1]);
     }
     if (s->added.camera)
         gn_problem_add(&in->advice, "export a camera (Blender: Include > Cameras)",

@@ -43,6 +43,13 @@ void gn_inspect_build(struct gn_inspection *in, const char *file, const struct g
         in->made_light.radius = holds.radius;
         memcpy(in->made_light.color, holds.color, sizeof holds.color);
     }
+    for (uint32_t i = 0; i < scene->camera_count && i < GN_INSPECT_CAMERAS; i++) {
+        const struct gn_frame_view_opts view = {.camera = (int)i};
+        struct gn_framing framing;
+        gn_frame_camera(&pose, &view, (float)GN_INSPECT_WIDTH_PX / GN_INSPECT_HEIGHT_PX, &framing);
+        in->depths_m[i][0] = framing.camera.near_m;
+        in->depths_m[i][1] = framing.camera.far_m;
+    }
     gn_frame_destroy(frame);
     gn_pose_finish(&pose);
 

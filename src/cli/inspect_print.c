@@ -127,13 +127,17 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
     fprintf(to, "\nCameras\n");
     for (uint32_t i = 0; i < s->camera_count; i++) {
         const struct gn_camera *c = &s->cameras[i];
-        char lens[64], far[32] = "infinity";
+        char lens[64], far[32] = "infinity", drawn[80] = "";
         if (c->orthographic)
             snprintf(lens, sizeof lens, "orthographic, %.4g m high", 2 * (double)c->ymag_m);
         else
             snprintf(lens, sizeof lens, "perspective, %.3g degrees high", GN_DEG(c->yfov_rad));
         if (c->far_m > 0) snprintf(far, sizeof far, "%.4g m", (double)c->far_m);
-        print_line(to, "%-3u %s: %s, from %.4g m to %s%s", i, c->name, lens, (double)c->near_m, far,
+        if (i < GN_INSPECT_CAMERAS && in->depths_m[i][0] > c->near_m)
+            snprintf(drawn, sizeof drawn, ", near plane at %.4g m: nothing is nearer in view",
+                     (double)in->depths_m[i][0]);
+        print_line(to, "%-3u %s: %s, from %.4g m to %s%s%s", i, c->name, lens, (double)c->near_m,
+                   far, drawn,
                    is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)"
                                                                 : "");
     }
@@ -298,13 +302,15 @@ static void add_lists(json_t *all, const struct gn_inspection *in) {
     for (uint32_t i = 0; i < s->camera_count; i++) {
         const struct gn_camera *c = &s->cameras[i];
         json_array_append_new(
-            cameras, json_pack("{so ss so so so so sb}", "name", gn_json_make_text(c->name), "type",
-                               c->orthographic ? "orthographic" : "perspective", "yfov_deg",
+            cameras, json_pack("{so ss so so so so so sb}", "name", gn_json_make_text(c->name),
+                               "type", c->orthographic ? "orthographic" : "perspective", "yfov_deg",
                                number_or_null(!c->orthographic, GN_DEG(c->yfov_rad)),
                                "half_height_m", number_or_null(c->orthographic, c->ymag_m),
                                "near_m", gn_json_make_number(c->near_m), "far_m",
-                               number_or_null(c->far_m > 0, c->far_m), "made",
-                               is_made(s->added.camera, i, s->camera_count)));
+                               number_or_null(c->far_m > 0, c->far_m), "drawn_near_m",
+                               number_or_null(i < GN_INSPECT_CAMERAS,
+                                              in->depths_m[i < GN_INSPECT_CAMERAS ? i : 0][0]),
+                               "made", is_made(s->added.camera, i, s->camera_count)));
     }
     for (uint32_t i = 0; i < s->animation.clip_count; i++) {
         const struct gn_clip *c = &s->animation.clips[i];

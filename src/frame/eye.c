@@ -4,7 +4,9 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
-#define FAR_TIMES 1e4f /* times the extent of the scene */
+#define FAR_TIMES 1e4f  /* times the extent of the scene */
+#define WIDER     1.25f /* than the picture, which may be shifted */
+#define ROUNDING  4e-6f /* of a coordinate, after the transforms of a vertex */
 
 /* About the vertical axis through the scene's centre. */
 static void turn_camera(struct gn_framing *framing, const struct gn_box *scene, float angle_rad) {
@@ -40,6 +42,45 @@ static void set_planes(struct gn_framing *framing, const struct gn_box *box, boo
     camera->near_m = fminf(camera->near_m, camera->orthographic ? -reach_m : 0.125f * target_m);
 }
 
+static void project(const struct gn_camera *c, float aspect, float wider, mat4 clip_from_view) {
+    const float x = c->xmag_m * wider, y = c->ymag_m * wider;
+    if (c->orthographic)
+        glm_ortho(-x, x, -y, y, c->near_m, c->far_m, clip_from_view);
+    else
+        glm_perspective(c->yfov_rad, aspect, c->near_m, c->far_m, clip_from_view);
+    for (int k = 0; k < 2 && !c->orthographic; k++) clip_from_view[k][k] /= wider;
+}
+
+/* The near plane goes out to the nearest surface in view: one at 0.1 mm leaves depth steps of
+ * metres at 100 m. It goes by doubling, and an orthographic range by halving, so that depths stay
+ * the same while things move a little. */
+static void fit_planes(struct gn_framing *framing, const struct gn_pose *pose, float aspect) {
+    struct gn_camera *c = &framing->camera;
+    const float given_m = c->near_m, rounding_m = ROUNDING * glm_vec3_norm(framing->eye_ws);
+    struct gn_eye eye;
+    mat4 clip_from_world;
+    vec3 start_ws;
+    float depths_m[2];
+    project(c, aspect, WIDER, clip_from_world);
+    glm_mat4_mul(clip_from_world, framing->view_from_world, clip_from_world);
+    gn_eye_build(&eye, clip_from_world);
+    for (int k = 0; k < 3; k++)
+        start_ws[k] = framing->eye_ws[k] - given_m * framing->view_from_world[k][2];
+    gn_eye_depths(&eye, start_ws, pose, depths_m);
+    const float free_m = 0.99f * depths_m[0] - rounding_m,
+                seen_m = 1.01f * depths_m[1] + rounding_m;
+    if (!isfinite(free_m) || !isfinite(seen_m)) return; /* nothing is in view */
+    if (c->orthographic) {
+        float range_m = c->far_m - given_m;
+        while (range_m > 2.0f * seen_m) range_m *= 0.5f;
+        c->far_m = fminf(c->far_m, given_m + range_m);
+        while (range_m > 2.0f * (c->far_m - given_m - free_m)) range_m *= 0.5f;
+        c->near_m = fmaxf(given_m, c->far_m - range_m);
+    }
+    while (!c->orthographic && 2.0f * c->near_m < fminf(given_m + free_m, 0.5f * c->far_m))
+        c->near_m *= 2.0f;
+}
+
 void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts *view,
                      float aspect, struct gn_framing *framing) {
     static const struct gn_orbit unmoved;
@@ -56,10 +97,12 @@ void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts
     turn_camera(framing, &pose->scene->box, view->turntable_rad);
     const bool placed = framing->distance_m > 0.0f;
     set_planes(framing, &pose->box_ws, placed || !gn_orbit_is_zero(orbit), target_m);
-    if (!camera->orthographic) return;
-    gn_orbit_ortho_half(orbit, camera, aspect, half);
-    camera->xmag_m = half[0];
-    camera->ymag_m = half[1];
+    if (camera->orthographic) {
+        gn_orbit_ortho_half(orbit, camera, aspect, half);
+        camera->xmag_m = half[0];
+        camera->ymag_m = half[1];
+    }
+    fit_planes(framing, pose, aspect);
 }
 
 static void shift_scene(const struct gn_frame *frame, const int shift_px[2], mat4 clip_from_view) {
@@ -76,14 +119,9 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
                       const struct gn_frame_opts *opts, struct gn_framing *framing,
                       mat4 clip_from_world) {
     const float aspect = (float)frame->picture.width_px / (float)frame->picture.height_px;
-    const struct gn_camera *c = &framing->camera;
     mat4 clip_from_view;
     gn_frame_camera(pose, &opts->view, aspect, framing);
-    if (c->orthographic)
-        glm_ortho(-c->xmag_m, c->xmag_m, -c->ymag_m, c->ymag_m, c->near_m, c->far_m,
-                  clip_from_view);
-    else
-        glm_perspective(c->yfov_rad, aspect, c->near_m, c->far_m, clip_from_view);
+    project(&framing->camera, aspect, 1.0f, clip_from_view);
     shift_scene(frame, opts->view.shift_px, clip_from_view);
     /* Rotates the picture in clip space: free for a rotated screen. */
     const float cosine = frame->picture.turn[0], sine = frame->picture.turn[1];

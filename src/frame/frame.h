@@ -106,8 +106,8 @@ struct gn_frame_opts {
  * +Z, towards +X. Moved by the user and by the turntable; never that of a light. */
 float gn_frame_camera_azimuth(const struct gn_pose *pose, const struct gn_frame_view_opts *view);
 /* The camera of a picture of this shape, which plans and rays both are of: moved by the user and
- * the turntable, its near and far planes around the scene, its orthographic half-sizes those of the
- * picture. */
+ * the turntable, its near and far planes around the scene, the near one as far out as the nearest
+ * box of an item in view allows, its orthographic half-sizes those of the picture. */
 void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts *view,
                      float aspect, struct gn_framing *framing);
 

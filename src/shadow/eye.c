@@ -26,6 +26,36 @@ bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box) {
     return !gn_planes_miss(eye->planes, 6, box);
 }
 
+static bool holds_point(const struct gn_box *box, const vec3 p) {
+    bool inside = true;
+    for (int k = 0; k < 3; k++) inside &= p[k] >= box->min[k] && p[k] <= box->max[k];
+    return inside;
+}
+
+void gn_eye_depths(const struct gn_eye *eye, const vec3 start_ws, const struct gn_pose *pose,
+                   float depths_m[2]) {
+    enum { NEAR = 4 }; /* of the planes; those of the sides come before it */
+    const float *near = eye->planes[NEAR];
+    depths_m[0] = INFINITY;
+    depths_m[1] = 0.0f;
+    for (uint32_t i = 0; i < pose->scene->item_count; i++) {
+        const struct gn_box *box = &pose->items[i].box_ws;
+        if (!pose->items[i].visible || gn_planes_miss(eye->planes, NEAR + 1, box)) continue;
+        depths_m[1] = fmaxf(depths_m[1], gn_box_most(near, box));
+        if (!(gn_box_least(near, box) < depths_m[0]) || depths_m[0] <= 0.0f) continue;
+        if (holds_point(box, start_ws)) depths_m[0] = 0.0f;
+        vec3 corners[8];
+        gn_box_corners(box, GLM_MAT4_IDENTITY, corners);
+        for (int face = 0; face < 6; face++) {
+            struct gn_polygon part;
+            gn_box_face(corners, face, &part);
+            for (int k = 0; k <= NEAR; k++) gn_polygon_clip(&part, eye->planes[k]);
+            for (int k = 0; k < part.count; k++)
+                depths_m[0] = fminf(depths_m[0], glm_vec3_dot((float *)near, part.at[k]) + near[3]);
+        }
+    }
+}
+
 void gn_eye_depth_plane(const struct gn_eye *eye, vec4 plane) {
     for (int c = 0; c < 4; c++) plane[c] = eye->clip_from_world[c][3];
 }

@@ -191,6 +191,10 @@ struct gn_eye {
 };
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world);
 bool gn_eye_sees(const struct gn_eye *eye, const struct gn_box *box); /* conservative */
+/* Depths beyond the near plane, whose middle is start_ws, between which boxes of visible items are
+ * seen: clipped at the sides, but not at the far plane. INFINITY and 0: nothing is. */
+void gn_eye_depths(const struct gn_eye *eye, const vec3 start_ws, const struct gn_pose *pose,
+                   float depths_m[2]);
 
 /* A cache of what items cover, kept for a light from frame to frame, so that what stands still is
  * measured once; and the casters found. One per tile, of one scene, for any light at any pose: a

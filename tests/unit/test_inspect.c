@@ -215,7 +215,9 @@ static void test_a_deep_camera_is_noticed(void **state) {
     (void)state;
     gn_maker_add(&maker, "cameras",
                  "{'type':'perspective','perspective':{'yfov':1,'znear':0.0001,'zfar':1000}}");
-    gn_maker_set(&maker, "nodes", "[{'mesh':0},{'name':'eye','camera':0,'translation':[0,0,5]}]");
+    gn_maker_cube(&maker);
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':1,'scale':[20,20,20]},{'name':'eye','camera':0,'translation':[0,0,5]}]");
     gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
     inspect();
     assert_advice("'eye' sees from 0.0001 to 1000 m");
@@ -367,6 +369,28 @@ static void test_a_light_of_the_file_is_printed_as_it_is_there(void **state) {
     free(text);
 }
 
+static void test_a_near_plane_that_goes_out_is_named(void **state) {
+    (void)state;
+    char *text = NULL;
+    size_t size;
+    gn_maker_add(&maker, "cameras",
+                 "{'type':'perspective','perspective':{'yfov':1,'znear':0.0001,'zfar':1000}}");
+    gn_maker_set(&maker, "nodes", "[{'mesh':0},{'name':'eye','camera':0,'translation':[0,0,5]}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+    inspect();
+    assert_no_advice("far surfaces may flicker");
+    FILE *file = open_memstream(&text, &size);
+    gn_inspect_print(&in, file);
+    fclose(file);
+    assert_non_null(strstr(text, "from 0.0001 m to 1000 m, near plane at 3.277 m: nothing is"));
+    free(text);
+    json_t *all = report(), *camera = json_array_get(json_object_get(all, "cameras"), 0);
+    const double near_m = json_real_value(json_object_get(camera, "drawn_near_m"));
+    assert_true(near_m > 2.5 && near_m < 5);
+    assert_true(json_real_value(json_object_get(camera, "near_m")) < 1.1e-4);
+    json_decref(all);
+}
+
 static void test_warnings_stand_in_the_report(void **state) {
     (void)state;
     gn_warn(&warnings, "t: something was odd");
@@ -407,6 +431,7 @@ int main(void) {
         TEST(test_a_camera_that_misses_the_model_is_noticed),
         TEST(test_a_camera_that_cuts_the_model_is_noticed),
         TEST(test_cameras_that_show_it_and_details_are_no_fault),
+        TEST(test_a_near_plane_that_goes_out_is_named),
         TEST(test_a_mask_without_holes_is_noticed),
         TEST(test_blend_without_transparency_is_opaque),
         TEST(test_glass_is_not_called_opaque),
