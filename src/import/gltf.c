@@ -30,17 +30,13 @@ static bool fail_gltf(const struct gltf *g, const char *what, size_t index, cons
 
 /* ---- the file ---- */
 
-static uint32_t read_u32(const uint8_t *p) {
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
 static struct part json_part(const struct gn_bytes *file, struct part *bin) {
     enum { HEADER = 12, CHUNK = 8 };
     struct part json = {file->data, file->size}, chunks[2] = {{0}};
     if (file->size < HEADER + CHUNK || memcmp(file->data, "glTF", 4) != 0) return json;
     size_t at = HEADER;
     for (int i = 0; i < 2 && file->size - at >= CHUNK; i++) {
-        const size_t size = read_u32(file->data + at), room = file->size - at - CHUNK;
+        const size_t size = gn_u32_at(file->data + at), room = file->size - at - CHUNK;
         chunks[i] = (struct part){file->data + at + CHUNK, size < room ? size : room};
         at += CHUNK + chunks[i].size;
     }
