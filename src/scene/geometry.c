@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
 enum { CLOSED_CORNERS = 2 }; /* tested for being closed, for each vertex of the limit */
 
 /* The square of a larger number overflows a float. */
@@ -135,6 +134,16 @@ static bool number_used_vertices(struct gn_gltf *g, uint32_t *corners, size_t co
     return true;
 }
 
+void gn_triangle_of(int64_t mode, const uint32_t *raw, size_t t, uint32_t out[3]) {
+    const size_t odd = t % 2;
+    if (mode == GN_MODE_TRIANGLES)
+        memcpy(out, raw + 3 * t, 3 * sizeof *out);
+    else if (mode == GN_MODE_STRIP)
+        memcpy(out, (uint32_t[]){raw[t], raw[t + 1 + odd], raw[t + 2 - odd]}, 3 * sizeof *out);
+    else
+        memcpy(out, (uint32_t[]){raw[t + 1], raw[t + 2], raw[0]}, 3 * sizeof *out);
+}
+
 /* Unrolls strips and fans into out, dropping triangles with equal indices or with a
  * position that is not finite; returns the number of corners. */
 static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
@@ -142,19 +151,8 @@ static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
                                const float *positions, uint32_t *out) {
     size_t count = 0, dropped = 0;
     for (size_t t = 0; t < shape->corner_count / 3; t++) {
-        const size_t odd = t % 2;
-        uint32_t v[3]; /* wound as in glTF 2.0, 3.7.2.1 */
-        if (shape->mode == MODE_TRIANGLES)
-            memcpy(v, raw + 3 * t, sizeof v);
-        else if (shape->mode == MODE_STRIP) {
-            v[0] = raw[t];
-            v[1] = raw[t + 1 + odd];
-            v[2] = raw[t + 2 - odd];
-        } else {
-            v[0] = raw[t + 1];
-            v[1] = raw[t + 2];
-            v[2] = raw[0];
-        }
+        uint32_t v[3];
+        gn_triangle_of(shape->mode, raw, t, v);
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
         if (position_is_usable(positions + 3 * (size_t)v[0]) &&
             position_is_usable(positions + 3 * (size_t)v[1]) &&

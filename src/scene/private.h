@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "image/ktx2.h"
 #include "image/scale.h"
+#include "scene/document.h"
 #include "scene/gltf/json.h"
 #include "scene/gltf/table.h"
 #include "scene/property.h"
@@ -373,7 +374,9 @@ uint64_t gn_gltf_picture_work(const struct gn_picture_need *need);
 /* Counts a picture that was decoded. */
 void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need);
 
-/* gltf/levels.c: the levels of a KTX2 file that texture_px allows. */
+/* gltf/levels.c: the first of count levels whose sides are within texture_px, or the last one. */
+uint32_t gn_gltf_first_level(const struct gn_gltf *g, const uint32_t px[2], uint32_t count);
+/* The levels of a KTX2 file that texture_px allows. */
 bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct gn_ktx2 *ktx2,
                     struct gn_image *image, struct gn_err *err);
 

@@ -43,14 +43,6 @@ static const struct format *format_of(const void *data, size_t size) {
     return NULL;
 }
 
-/* Halves the longer side until it fits; false: it fits as it is. */
-static bool shrink_px(const struct gn_gltf *g, const uint32_t px[2], uint32_t to[2]) {
-    uint32_t level = 0, longer = px[0] > px[1] ? px[0] : px[1];
-    while (g->limits.texture_px > 0 && gn_level_px(longer, level) > g->limits.texture_px) level++;
-    for (int k = 0; k < 2; k++) to[k] = gn_level_px(px[k], level);
-    return level > 0;
-}
-
 /* Into the scene's memory, or, if it is to be scaled, by way of the system's. */
 static bool read_pixels(struct gn_gltf *g, const struct gn_blob *blob,
                         const struct gn_picture_need *whole, const uint32_t px[2],
@@ -77,12 +69,13 @@ static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_
     uint8_t *rgba;
     if (!format) return gn_fail(err, OTHER_FORMAT);
     if (!format->size(blob->data, blob->size, need.px, err)) return false;
-    const bool smaller = shrink_px(g, need.px, px);
+    const uint32_t level = gn_gltf_first_level(g, need.px, UINT32_MAX);
+    for (int k = 0; k < 2; k++) px[k] = gn_level_px(need.px[k], level);
     const uint64_t texels = (uint64_t)px[0] * px[1];
     need.kept = 4 * texels;
     need.on_gpu = 4 * (texels + texels / 3);
     need.decoding = format->work_bytes(blob->data, blob->size, need.px) +
-                    (smaller ? 4 * (uint64_t)need.px[0] * need.px[1] : 0);
+                    (level > 0 ? 4 * (uint64_t)need.px[0] * need.px[1] : 0);
     if (!gn_gltf_picture_fits(g, &need, err)) return false;
     if (!read_pixels(g, blob, &need, px, kind, &rgba, err)) {
         g->damaged_work += gn_gltf_picture_work(&need);

@@ -4,19 +4,17 @@
 
 #include <inttypes.h>
 
-/* The first level whose sides are within texture_px, or the last one. */
-static uint32_t first_level(const struct gn_gltf *g, const struct gn_ktx2 *ktx2) {
-    const uint32_t longer = ktx2->px[0] > ktx2->px[1] ? ktx2->px[0] : ktx2->px[1];
+uint32_t gn_gltf_first_level(const struct gn_gltf *g, const uint32_t px[2], uint32_t count) {
+    const uint32_t longer = px[0] > px[1] ? px[0] : px[1], most = g->limits.texture_px;
     uint32_t level = 0;
-    while (g->limits.texture_px > 0 && level + 1 < ktx2->level_count &&
-           gn_level_px(longer, level) > g->limits.texture_px)
-        level++;
+    while (most > 0 && level + 1 < count && gn_level_px(longer, level) > most) level++;
     return level;
 }
 
 bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct gn_ktx2 *ktx2,
                     struct gn_image *image, struct gn_err *err) {
-    const uint32_t first = first_level(g, ktx2), count = ktx2->level_count - first;
+    const uint32_t first = gn_gltf_first_level(g, ktx2->px, ktx2->level_count),
+                   count = ktx2->level_count - first;
     struct gn_picture_need need = {.decoding = gn_ktx2_level_work_bytes(ktx2)};
     for (int k = 0; k < 2; k++) need.px[k] = gn_level_px(ktx2->px[k], first);
     need.kept = need.on_gpu = gn_packing_all_bytes(ktx2->packing, need.px, count);
