@@ -183,7 +183,6 @@ static bool decode_attribute(struct gltf *g, const struct gn_draco *draco, json_
     const size_t stride = ((size_t)width * bytes_of(component) + 3) & ~(size_t)3;
     if (stride == 0 || !json_is_integer(id)) return false;
     uint8_t *data = gn_import_alloc(draco->point_count * stride);
-    memset(data, 0, draco->point_count * stride);
     const bool ok = gn_draco_attribute(draco, (uint32_t)json_integer_value(id), (int)component,
                                        width, stride, data);
     if (ok)

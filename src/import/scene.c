@@ -180,10 +180,7 @@ bool gn_import_scene_build(struct gn_import *import) {
     import->primitives = gn_import_alloc((scene->mNumMeshes + 1) * sizeof(json_t *));
     import->meshes = gn_import_alloc((scene->mNumMeshes + 1) * sizeof(int));
     import->materials = gn_import_alloc((scene->mNumMaterials + 1) * sizeof(int));
-    for (unsigned i = 0; i < scene->mNumMeshes; i++) {
-        import->primitives[i] = NULL;
-        import->meshes[i] = GN_IMPORT_UNSEEN;
-    }
+    for (unsigned i = 0; i < scene->mNumMeshes; i++) import->meshes[i] = GN_IMPORT_UNSEEN;
     for (unsigned i = 0; i < scene->mNumMaterials; i++) import->materials[i] = GN_IMPORT_UNSEEN;
     for (int k = 0; k < 3; k++) {
         import->low[k] = INFINITY;
