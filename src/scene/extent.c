@@ -127,16 +127,11 @@ static void measure_shape(struct measure *m, const struct gn_geometry *g, struct
     shape->count = count;
 }
 
-static int compare_vertices(const void *a, const void *b) {
-    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return (x > y) - (x < y);
-}
-
 static void list_vertices(struct measure *m, const struct gn_geometry *g, struct shape *shape) {
     uint32_t *vertices = gn_gltf_alloc(m->g, &m->g->memory.step, g->index_count, sizeof *vertices);
     if (m->g->failed) return;
     memcpy(vertices, m->scene->buffers.indices + g->first_index, g->index_count * sizeof *vertices);
-    qsort(vertices, g->index_count, sizeof *vertices, compare_vertices);
+    qsort(vertices, g->index_count, sizeof *vertices, gn_compare_indices);
     for (uint32_t i = 0; i < g->index_count; i++)
         if (i == 0 || vertices[i] != vertices[i - 1]) vertices[shape->vertex_count++] = vertices[i];
     shape->vertices = vertices;

@@ -110,7 +110,7 @@ static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
     return raw;
 }
 
-static int compare_indices(const void *a, const void *b) {
+int gn_compare_indices(const void *a, const void *b) {
     const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
     return (x > y) - (x < y);
 }
@@ -123,11 +123,11 @@ static bool number_used_vertices(struct gn_gltf *g, uint32_t *corners, size_t co
     if (!list) return false;
     size_t n = 0;
     memcpy(list, corners, count * sizeof *list);
-    qsort(list, count, sizeof *list, compare_indices);
+    qsort(list, count, sizeof *list, gn_compare_indices);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || list[i] != list[n - 1]) list[n++] = list[i];
     for (size_t i = 0; i < count; i++) {
-        const uint32_t *at = bsearch(&corners[i], list, n, sizeof *list, compare_indices);
+        const uint32_t *at = bsearch(&corners[i], list, n, sizeof *list, gn_compare_indices);
         corners[i] = (uint32_t)(at - list);
     }
     *used_count = n;

@@ -283,6 +283,9 @@ void gn_accessor_gather(const struct gn_accessor *a, size_t components, const ui
 /* All elements as numbers, into out: count of them. The accessor is of unsigned scalars. */
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 
+/* geometry.c: of two uint32_t, for qsort(). */
+int gn_compare_indices(const void *a, const void *b);
+
 /* geometry_finish.c: steps of making a geometry that need only its triangles. */
 /* Flat normals for triangles that have none. positions: 3 x vertex_count. corners: corner_count
  * indices into them, which become indices into the *made vertices, at most corner_count; of these
