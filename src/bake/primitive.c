@@ -7,7 +7,6 @@
 #include "bake/private.h"
 #include "bake/reorder.h"
 
-enum { MODE_TRIANGLES = 4, MODE_STRIP, MODE_FAN };
 enum { SIMPLIFIED_TRIANGLES = 32 }; /* meshes with fewer stay as they are */
 #define SIMPLIFY_ERROR .02f         /* of the size of the mesh, at most */
 
@@ -71,17 +70,6 @@ static bool read_streams(struct primitive *p, size_t position, const struct gn_g
     return true;
 }
 
-/* The vertices of triangle t as they are wound (glTF 2.0, 3.7.2.1). */
-static void triangle_of(int64_t mode, const uint32_t *raw, size_t t, uint32_t out[3]) {
-    const size_t odd = t % 2;
-    if (mode == MODE_TRIANGLES)
-        memcpy(out, raw + 3 * t, 3 * sizeof *out);
-    else if (mode == MODE_STRIP)
-        memcpy(out, (uint32_t[]){raw[t], raw[t + 1 + odd], raw[t + 2 - odd]}, 3 * sizeof *out);
-    else
-        memcpy(out, (uint32_t[]){raw[t + 1], raw[t + 2], raw[0]}, 3 * sizeof *out);
-}
-
 /* Triangles with two equal corners show nothing. */
 static size_t drop_flat(uint32_t *corners, size_t count) {
     size_t kept = 0;
@@ -100,7 +88,9 @@ static bool read_corners(struct primitive *p, int64_t mode) {
     struct gn_elements e = {.count = p->vertex_count};
     if (index >= 0 && !gn_document_accessor(b->in, (size_t)index, &e)) return !(b->failed = true);
     uint32_t *raw = gn_bake_alloc(b, e.count, sizeof *raw);
-    const size_t triangles = mode == MODE_TRIANGLES ? e.count / 3 : e.count > 2 ? e.count - 2 : 0;
+    const size_t triangles = mode == GN_MODE_TRIANGLES ? e.count / 3
+                             : e.count > 2             ? e.count - 2
+                                                       : 0;
     p->corners = gn_bake_alloc(b, triangles, 3 * sizeof *p->corners);
     if (b->failed) return false;
     for (size_t i = 0; i < e.count; i++) raw[i] = (uint32_t)i;
@@ -109,7 +99,7 @@ static bool read_corners(struct primitive *p, int64_t mode) {
         if (raw[i] >= p->vertex_count)
             return gn_bake_fail(b, "accessors[%lld]: element %zu is vertex %u, but there are %zu",
                                 (long long)index, i, raw[i], p->vertex_count);
-    for (size_t t = 0; t < triangles; t++) triangle_of(mode, raw, t, p->corners + 3 * t);
+    for (size_t t = 0; t < triangles; t++) gn_triangle_of(mode, raw, t, p->corners + 3 * t);
     b->report->triangles_before += triangles;
     p->corner_count = drop_flat(p->corners, 3 * triangles);
     return true;
@@ -224,11 +214,11 @@ bool gn_bake_primitive(struct gn_baker *b, json_t *json, const struct gn_grid *g
                        bool locks_border, bool *baked) {
     struct primitive p = {.b = b, .json = json};
     const int64_t number = gn_bake_number(json, "mode"),
-                  mode = number < 0 ? MODE_TRIANGLES : number;
+                  mode = number < 0 ? GN_MODE_TRIANGLES : number;
     const int64_t position = gn_bake_number(json_object_get(json, "attributes"), "POSITION");
     struct gn_elements e;
     *baked = false;
-    if (mode < MODE_TRIANGLES || mode > MODE_FAN || position < 0) return true;
+    if (mode < GN_MODE_TRIANGLES || mode > GN_MODE_FAN || position < 0) return true;
     if (!gn_document_accessor(b->in, (size_t)position, &e)) return !(b->failed = true);
     if (e.components != 3 || e.count > UINT32_MAX) return true;
     p.vertex_count = e.count;

@@ -146,7 +146,7 @@ static bool make_truth(struct desk *desk, struct gn_warnings *warnings, struct g
         struct gn_raycast rays;
         desk->share = gn_picture_alloc(desk->pixels, sizeof *desk->share, err);
         if (!desk->share) return false;
-        gn_raycast_init(&rays, desk->stage.scene, &desk->stage.pose);
+        gn_raycast_init(&rays, desk->stage.scene, &desk->stage.pose, NULL);
         gn_penumbra_cast(&rays, &desk->truth.frame.eye, &desk->truth.frame.lamp, desk->share);
         gn_raycast_finish(&rays);
     }

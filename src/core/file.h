@@ -16,6 +16,11 @@ struct gn_bytes {
     size_t size;
 };
 
+/* Four of them as a number, the least significant first. */
+static inline uint32_t gn_u32_at(const uint8_t *p) {
+    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+}
+
 /* Reads a regular file of at most limit bytes (0 = no limit). Refuses directories, devices, FIFOs
  * and sockets (without blocking on one); the error has the path and the reason. */
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err);

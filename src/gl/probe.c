@@ -15,49 +15,39 @@ static const char fragment_head[] = "#version 300 es\n"
                                     "precision highp float;\n"
                                     "precision highp int;\n"
                                     "uniform highp sampler2DShadow u_map;\n"
-                                    "const vec2 middle = vec2(0.5);\n";
+                                    "#define LIT(depth) texture(u_map, vec3(0.5, 0.5, depth))\n";
+
+enum kind { BYTES, HALVES, INTEGERS }; /* how a target is read back */
 
 /* What one capability is proved by. */
 static const struct row {
     enum gn_cap cap;
     GLenum format;
-    const char *type, *value; /* of its output */
-    double expected[4];       /* as read back: halves as they are, bytes 0..255 */
+    enum kind kind;
+    int channels;
+    const char *value;  /* of its output */
+    double expected[4]; /* as read back: halves as they are, bytes 0..255 */
 } rows[] = {
-    {GN_CAP_R16F, GL_R16F, "vec4", "vec4(0.3330078125, 0.0, 0.0, 1.0)", {0.3330078125}},
-    {GN_CAP_R32UI, GL_R32UI, "uvec4", "uvec4(0x41c80001u, 0u, 0u, 1u)", {0x41c80001u}},
-    {GN_CAP_RGBA16F,
-     GL_RGBA16F,
-     "vec4",
-     "vec4(1000.0, 0.3330078125, -2.5, 0.5)",
-     {1000, 0.3330078125, -2.5, 0.5}},
-    {GN_CAP_RGBA16UI,
-     GL_RGBA16UI,
-     "uvec4",
-     "uvec4(65535u, 1u, 0x1234u, 0x8000u)",
-     {65535, 1, 0x1234, 0x8000}},
-    {GN_CAP_RG32UI,
-     GL_RG32UI,
-     "uvec4",
-     "uvec4(0x41c80000u, 0x7f000000u, 0u, 1u)",
-     {0x41c80000u, 0x7f000000u}},
-    {GN_CAP_RGBA32UI,
-     GL_RGBA32UI,
-     "uvec4",
-     "uvec4(0x41c80000u, 0xff000000u, 0x7f000000u, 1u)",
-     {0x41c80000u, 0xff000000u, 0x7f000000u, 1}},
-    {GN_CAP_RG16F,
-     GL_RG16F,
-     "vec4",
-     "vec4(60000.0, -0.3330078125, 0.0, 1.0)",
-     {60000, -0.3330078125}},
-    {GN_CAP_SRGB, GL_SRGB8_ALPHA8, "vec4", "vec4(0.5, 0.0, 1.0, 1.0)", {188, 0, 255, 255}},
+#define ROW(NAME, kind, channels, value, ...)                                                      \
+    {                                                                                              \
+        GN_CAP_##NAME, GL_##NAME, kind, channels, value, { __VA_ARGS__ }                           \
+    }
+    ROW(R16F, HALVES, 1, "0.3330078125, 0.0, 0.0, 1.0", 0.3330078125),
+    ROW(R32UI, INTEGERS, 1, "0x41c80001u, 0u, 0u, 1u", 0x41c80001u),
+    ROW(RGBA16F, HALVES, 4, "1000.0, 0.3330078125, -2.5, 0.5", 1000, 0.3330078125, -2.5, 0.5),
+    ROW(RGBA16UI, INTEGERS, 4, "65535u, 1u, 0x1234u, 0x8000u", 65535, 1, 0x1234, 0x8000),
+    ROW(RG32UI, INTEGERS, 2, "0x41c80000u, 0x7f000000u, 0u, 1u", 0x41c80000u, 0x7f000000u),
+    ROW(RGBA32UI, INTEGERS, 4, "0x41c80000u, 0xff000000u, 0x7f000000u, 1u", 0x41c80000u,
+        0xff000000u, 0x7f000000u, 1),
+    ROW(RG16F, HALVES, 2, "60000.0, -0.3330078125, 0.0, 1.0", 60000, -0.3330078125),
+#undef ROW
+    {GN_CAP_SRGB, GL_SRGB8_ALPHA8, BYTES, 4, "0.5, 0.0, 1.0, 1.0", {188, 0, 255, 255}},
     /* the texture holds .5; lit where the reference is at most that */
     {GN_CAP_DEPTH_COMPARE,
      GL_RGBA8,
-     "vec4",
-     "vec4(texture(u_map, vec3(middle, 0.25)), texture(u_map, vec3(middle, 0.75)),\n"
-     "     texture(u_map, vec3(middle, 0.45)), texture(u_map, vec3(middle, 0.55)))",
+     BYTES,
+     4,
+     "LIT(0.25), LIT(0.75), LIT(0.45), LIT(0.55)",
      {255, 0, 255, 0}},
 };
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
@@ -96,43 +86,25 @@ static GLuint attach_new(struct gn_gl *gl, GLenum where, GLenum format, GLsizei 
 
 /* ---- what comes back ---- */
 
-static bool read_integers(struct gn_gl *gl, int channels, const double expected[4]) {
-    GLuint pixel[4] = {0};
-    GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, pixel);
-    for (int i = 0; i < channels; i++)
-        if (pixel[i] != (GLuint)expected[i]) return false;
-    return true;
-}
-
-static bool read_bytes(struct gn_gl *gl, const double expected[4]) {
-    GLubyte pixel[4] = {1, 1, 1, 1};
-    GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
-    for (int i = 0; i < 4; i++)
-        if (fabs(pixel[i] - expected[i]) > 1.5) return false;
-    return true;
-}
-
-static bool read_halves(struct gn_gl *gl, int channels, const double expected[4]) {
-    float pixel[4] = {0};
-    gn_gl_read_floats(gl, 1, 1, pixel);
-    for (int i = 0; i < channels; i++)
-        if (fabs((double)pixel[i] - expected[i]) > 1e-3 * fabs(expected[i])) return false;
-    return true;
-}
-
 static bool read_back(struct gn_gl *gl, const struct row *row, GLenum attachment) {
+    GLuint integers[4] = {0};
+    GLubyte bytes[4] = {1, 1, 1, 1};
+    float halves[4] = {0};
+    bool right = true;
     drop_errors(gl);
     GL(gl, ReadBuffer)(attachment);
-    bool right = false;
-    switch (row->cap) {
-    case GN_CAP_R32UI: right = read_integers(gl, 1, row->expected); break;
-    case GN_CAP_R16F: right = read_halves(gl, 1, row->expected); break;
-    case GN_CAP_RG16F: right = read_halves(gl, 2, row->expected); break;
-    case GN_CAP_RG32UI: right = read_integers(gl, 2, row->expected); break;
-    case GN_CAP_RGBA16UI:
-    case GN_CAP_RGBA32UI: right = read_integers(gl, 4, row->expected); break;
-    case GN_CAP_RGBA16F: right = read_halves(gl, 4, row->expected); break;
-    default: right = read_bytes(gl, row->expected); break;
+    switch (row->kind) {
+    case INTEGERS:
+        GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, integers);
+        break;
+    case HALVES: gn_gl_read_floats(gl, 1, 1, halves); break;
+    case BYTES: GL(gl, ReadPixels)(1, 1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, bytes); break;
+    }
+    for (int i = 0; i < row->channels; i++) {
+        const double expected = row->expected[i];
+        right &= row->kind == INTEGERS ? integers[i] == (GLuint)expected
+                 : row->kind == HALVES ? fabs((double)halves[i] - expected) <= 1e-3 * fabs(expected)
+                                       : fabs(bytes[i] - expected) <= 1.5;
     }
     return right && GL(gl, GetError)() == GL_NO_ERROR;
 }
@@ -145,6 +117,10 @@ struct proof { /* of the rows of a mask; the n-th of them is color attachment n 
     GLuint depth_framebuffer, depth; /* what is compared with */
 };
 
+static const char *type_of(const struct row *row) {
+    return row->kind == INTEGERS ? "uvec4" : "vec4";
+}
+
 static void make_proof_program(struct gn_gl *gl, struct proof *proof) {
     struct gn_gl_text text = {0};
     int output = 0;
@@ -152,10 +128,11 @@ static void make_proof_program(struct gn_gl *gl, struct proof *proof) {
     for (int i = 0; i < ROW_COUNT; i++)
         if (proof->mask >> i & 1)
             gn_gl_text_add(&text, "layout(location = %d) out highp %s o_%d;\n", output++,
-                           rows[i].type, i);
+                           type_of(&rows[i]), i);
     gn_gl_text_add(&text, "void main() {\n");
     for (int i = 0; i < ROW_COUNT; i++)
-        if (proof->mask >> i & 1) gn_gl_text_add(&text, "    o_%d = %s;\n", i, rows[i].value);
+        if (proof->mask >> i & 1)
+            gn_gl_text_add(&text, "    o_%d = %s(%s);\n", i, type_of(&rows[i]), rows[i].value);
     gn_gl_text_add(&text, "}\n");
     proof->program = gn_gl_program_link(gl, gn_gl_whole_vertex, text.data, NULL);
     gn_gl_text_finish(&text);

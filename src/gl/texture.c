@@ -78,14 +78,11 @@ static void make_sampler(struct gn_gl *gl, const struct gn_texture *t) {
     };
     GLuint *sampler = &gl->scene.samplers[sampler_kind(t)];
     if (*sampler) return;
-    *sampler = gn_gl_object_create(gl, GN_GL_SAMPLER);
+    *sampler = gn_gl_sampler_make(
+        gl, t->mipmaps ? mipmapped[t->mip_nearest][t->min_nearest] : plain[t->min_nearest],
+        plain[t->mag_nearest]);
     GL(gl, SamplerParameteri)(*sampler, GL_TEXTURE_WRAP_S, wraps[t->wrap_s]);
     GL(gl, SamplerParameteri)(*sampler, GL_TEXTURE_WRAP_T, wraps[t->wrap_t]);
-    GL(gl, SamplerParameteri)
-    (*sampler, GL_TEXTURE_MIN_FILTER,
-     t->mipmaps ? mipmapped[t->mip_nearest][t->min_nearest] : plain[t->min_nearest]);
-    GL(gl, SamplerParameteri)
-    (*sampler, GL_TEXTURE_MAG_FILTER, t->mag_nearest ? GL_NEAREST : GL_LINEAR);
 }
 
 /* ---- all of them ---- */

@@ -6,6 +6,8 @@
 #include <string.h>
 #include <zlib.h>
 
+#include "core/file.h"
+
 enum { HEADER = 80, LEVEL = 24, LEVELS_MAX = 32 };
 enum scheme { SCHEME_NONE, SCHEME_BASIS, SCHEME_ZSTD, SCHEME_ZLIB };
 enum { MODEL_ETC1S = 163, MODEL_UASTC = 166 };       /* of the data format descriptor */
@@ -22,17 +24,15 @@ static const struct format { /* of Vulkan; that and the next in sRGB mean the sa
                {154, 154, GN_PACKING_EAC_R_SIGNED, 4}, {155, 155, GN_PACKING_EAC_RG, 4},
                {156, 156, GN_PACKING_EAC_RG_SIGNED, 4}};
 
-static uint32_t read_u32(const uint8_t *p) {
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
+static uint64_t read_u64(const uint8_t *p) {
+    return gn_u32_at(p) | (uint64_t)gn_u32_at(p + 4) << 32;
 }
-
-static uint64_t read_u64(const uint8_t *p) { return read_u32(p) | (uint64_t)read_u32(p + 4) << 32; }
 
 /* ---- the header ---- */
 
 static bool is_basis(const uint8_t *data, size_t size, uint32_t vk, uint32_t scheme) {
     enum { MODEL_AT = 12 }; /* behind the descriptor's size and two words */
-    const uint32_t at = read_u32(data + 48);
+    const uint32_t at = gn_u32_at(data + 48);
     const int model =
         at >= HEADER && size > MODEL_AT && at < size - MODEL_AT ? data[at + MODEL_AT] : 0;
     return scheme == SCHEME_BASIS || (vk == 0 && (model == MODEL_ETC1S || model == MODEL_UASTC));
@@ -69,12 +69,12 @@ bool gn_ktx2_open(const uint8_t *data, size_t size, struct gn_ktx2 *out, struct 
     *out = (struct gn_ktx2){0};
     if (size < HEADER || memcmp(data, GN_KTX2_MAGIC, 12) != 0)
         return gn_fail(err, "KTX2: truncated, or no KTX2");
-    const uint32_t vk = read_u32(data + 12), depth = read_u32(data + 28);
-    const uint32_t layers = read_u32(data + 32), faces = read_u32(data + 36);
-    const uint32_t levels = read_u32(data + 40);
-    out->scheme = read_u32(data + 44);
-    out->px[0] = read_u32(data + 20);
-    out->px[1] = read_u32(data + 24);
+    const uint32_t vk = gn_u32_at(data + 12), depth = gn_u32_at(data + 28);
+    const uint32_t layers = gn_u32_at(data + 32), faces = gn_u32_at(data + 36);
+    const uint32_t levels = gn_u32_at(data + 40);
+    out->scheme = gn_u32_at(data + 44);
+    out->px[0] = gn_u32_at(data + 20);
+    out->px[1] = gn_u32_at(data + 24);
     out->level_count = levels > 0 ? levels : 1;
     out->basis = is_basis(data, size, vk, out->scheme);
     if (out->basis) return gn_fail(err, "%s", GN_KTX2_BASIS);

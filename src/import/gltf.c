@@ -30,17 +30,13 @@ static bool fail_gltf(const struct gltf *g, const char *what, size_t index, cons
 
 /* ---- the file ---- */
 
-static uint32_t read_u32(const uint8_t *p) {
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
 static struct part json_part(const struct gn_bytes *file, struct part *bin) {
     enum { HEADER = 12, CHUNK = 8 };
     struct part json = {file->data, file->size}, chunks[2] = {{0}};
     if (file->size < HEADER + CHUNK || memcmp(file->data, "glTF", 4) != 0) return json;
     size_t at = HEADER;
     for (int i = 0; i < 2 && file->size - at >= CHUNK; i++) {
-        const size_t size = read_u32(file->data + at), room = file->size - at - CHUNK;
+        const size_t size = gn_u32_at(file->data + at), room = file->size - at - CHUNK;
         chunks[i] = (struct part){file->data + at + CHUNK, size < room ? size : room};
         at += CHUNK + chunks[i].size;
     }
@@ -187,7 +183,6 @@ static bool decode_attribute(struct gltf *g, const struct gn_draco *draco, json_
     const size_t stride = ((size_t)width * bytes_of(component) + 3) & ~(size_t)3;
     if (stride == 0 || !json_is_integer(id)) return false;
     uint8_t *data = gn_import_alloc(draco->point_count * stride);
-    memset(data, 0, draco->point_count * stride);
     const bool ok = gn_draco_attribute(draco, (uint32_t)json_integer_value(id), (int)component,
                                        width, stride, data);
     if (ok)

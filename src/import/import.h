@@ -60,7 +60,7 @@ void gn_import_work(const struct gn_import_opts *opts, int fd, int opener,
 
 /* Sets the limits and the report used by the functions below. */
 void gn_import_memory_begin(const struct gn_import_opts *opts, struct gn_import_report *report);
-/* Returns size bytes, or reports the failure and exits. */
+/* Returns size bytes, zeroed, or reports the failure and exits. */
 void *gn_import_alloc(size_t size);
 void *gn_import_grow(void *old, size_t size); /* as realloc */
 void gn_import_no_memory(void) __attribute__((noreturn));

@@ -20,7 +20,7 @@ void gn_import_no_memory(void) {
 }
 
 void *gn_import_alloc(size_t size) {
-    void *memory = malloc(size ? size : 1);
+    void *memory = calloc(1, size ? size : 1);
     if (!memory) gn_import_no_memory();
     return memory;
 }

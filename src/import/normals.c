@@ -77,7 +77,6 @@ static void make_groups(struct place *place, const struct faces *faces) {
         place->group_count += is_large ? GROUP_COUNT : 0;
     }
     place->all_groups = gn_import_alloc(place->group_count * sizeof *place->all_groups);
-    memset(place->all_groups, 0, place->group_count * sizeof *place->all_groups);
     for (size_t p = 0; p < place->count; p++) {
         if (!place->groups[p]) continue;
         struct group *groups = &place->all_groups[place->groups[p] - 1];
@@ -122,7 +121,6 @@ static void split_vertices(struct gn_import_shape *shape, const struct place *pl
     size_t size = 16;
     while (size < 2 * shape->index_count) size *= 2;
     uint32_t *slots = gn_import_alloc(size * sizeof *slots); /* vertex + 1, or 0 */
-    memset(slots, 0, size * sizeof *slots);
     const struct gn_hash_key hash_key = gn_hash_key_make();
     shape->origin = gn_import_alloc(shape->index_count * sizeof *shape->origin);
     shape->normals = gn_import_alloc(shape->index_count * sizeof *shape->normals);
@@ -163,7 +161,6 @@ void gn_import_normals(struct gn_import_shape *shape) {
     /* a counting sort of the corners by place */
     uint32_t *next = place.first = gn_import_alloc((place.count + 2) * sizeof *next);
     place.corners = gn_import_alloc(shape->index_count * sizeof *place.corners);
-    memset(next, 0, (place.count + 2) * sizeof *next);
     for (size_t i = 0; i < shape->index_count; i++) next[place.of_vertex[shape->indices[i]] + 2]++;
     for (size_t i = 2; i < place.count + 2; i++) next[i] += next[i - 1];
     for (size_t i = 0; i < shape->index_count; i++)

@@ -106,22 +106,9 @@ static struct aiMatrix4x4 world_from_model(const struct gn_import *import) {
     if (import->format == GN_MODEL_FBX) /* centimetres per unit */
         scale = 0.01f * meta_number(import, "UnitScaleFactor", 1.0f);
     if (!isfinite(scale) || scale <= 0.0f) scale = 0.01f;
-    return (struct aiMatrix4x4){scale * m[0][0],
-                                scale * m[0][1],
-                                scale * m[0][2],
-                                0.0f,
-                                scale * m[1][0],
-                                scale * m[1][1],
-                                scale * m[1][2],
-                                0.0f,
-                                scale * m[2][0],
-                                scale * m[2][1],
-                                scale * m[2][2],
-                                0.0f,
-                                0.0f,
-                                0.0f,
-                                0.0f,
-                                1.0f};
+    for (int i = 0; i < 9; i++) m[i / 3][i % 3] *= scale;
+    return (struct aiMatrix4x4){m[0][0], m[0][1], m[0][2], 0.0f, m[1][0], m[1][1], m[1][2], 0.0f,
+                                m[2][0], m[2][1], m[2][2], 0.0f, 0.0f,    0.0f,    0.0f,    1.0f};
 }
 
 /* ---- nodes ---- */
@@ -193,10 +180,7 @@ bool gn_import_scene_build(struct gn_import *import) {
     import->primitives = gn_import_alloc((scene->mNumMeshes + 1) * sizeof(json_t *));
     import->meshes = gn_import_alloc((scene->mNumMeshes + 1) * sizeof(int));
     import->materials = gn_import_alloc((scene->mNumMaterials + 1) * sizeof(int));
-    for (unsigned i = 0; i < scene->mNumMeshes; i++) {
-        import->primitives[i] = NULL;
-        import->meshes[i] = GN_IMPORT_UNSEEN;
-    }
+    for (unsigned i = 0; i < scene->mNumMeshes; i++) import->meshes[i] = GN_IMPORT_UNSEEN;
     for (unsigned i = 0; i < scene->mNumMaterials; i++) import->materials[i] = GN_IMPORT_UNSEEN;
     for (int k = 0; k < 3; k++) {
         import->low[k] = INFINITY;

@@ -41,6 +41,10 @@ bool gn_document_accessor(struct gn_document *document, size_t index, struct gn_
 void gn_document_floats(struct gn_document *document, size_t index, size_t components, float *out);
 /* As numbers, into out: count of them. False, and failed, where they are no unsigned scalars. */
 bool gn_document_indices(struct gn_document *document, size_t index, uint32_t *out);
+/* The numbers among count indices of the vertices of triangle t, as it is wound: glTF 2.0, 3.7.2.1.
+ */
+enum { GN_MODE_TRIANGLES = 4, GN_MODE_STRIP, GN_MODE_FAN };
+void gn_triangle_of(int64_t mode, const uint32_t *raw, size_t t, uint32_t out[3]);
 /* Of a bufferView, decompressed; data is NULL where its buffer holds none. */
 void gn_document_view(const struct gn_document *document, size_t index, const uint8_t **data,
                       size_t *size, size_t *stride);

@@ -127,16 +127,11 @@ static void measure_shape(struct measure *m, const struct gn_geometry *g, struct
     shape->count = count;
 }
 
-static int compare_vertices(const void *a, const void *b) {
-    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return (x > y) - (x < y);
-}
-
 static void list_vertices(struct measure *m, const struct gn_geometry *g, struct shape *shape) {
     uint32_t *vertices = gn_gltf_alloc(m->g, &m->g->memory.step, g->index_count, sizeof *vertices);
     if (m->g->failed) return;
     memcpy(vertices, m->scene->buffers.indices + g->first_index, g->index_count * sizeof *vertices);
-    qsort(vertices, g->index_count, sizeof *vertices, compare_vertices);
+    qsort(vertices, g->index_count, sizeof *vertices, gn_compare_indices);
     for (uint32_t i = 0; i < g->index_count; i++)
         if (i == 0 || vertices[i] != vertices[i - 1]) vertices[shape->vertex_count++] = vertices[i];
     shape->vertices = vertices;
@@ -189,11 +184,6 @@ static void add_items(struct measure *m, const struct gn_pose *pose, bool moving
 
 /* ---- times --------------------------------------------------------------------------------- */
 
-static bool plays_clip(const struct gn_pose *pose, uint32_t clip) {
-    return pose->at.clips == GN_POSE_DEFAULT ? pose->scene->animation.clips[clip].on_by_default
-                                             : pose->at.clips == (int)clip;
-}
-
 /* Nodes, items and channels that a step of the pose goes through. */
 static uint64_t count_moving(const struct gn_pose *pose) {
     const struct gn_scene *scene = pose->scene;
@@ -201,7 +191,7 @@ static uint64_t count_moving(const struct gn_pose *pose) {
     for (uint32_t i = 0; i < scene->node_count; i++) count += pose->node_moves[i];
     for (uint32_t i = 0; i < scene->item_count; i++) count += pose->items[i].moves;
     for (uint32_t i = 0; i < scene->animation.clip_count; i++)
-        if (plays_clip(pose, i)) count += scene->animation.clips[i].channel_count;
+        if (gn_pose_plays(pose, i)) count += scene->animation.clips[i].channel_count;
     return count;
 }
 
@@ -212,7 +202,7 @@ static int64_t find_period(const struct gn_pose *pose) {
     bool differ = false;
     for (uint32_t i = 0; i < pose->scene->animation.clip_count; i++) {
         const int64_t ns = pose->scene->animation.clips[i].duration_ns;
-        if (!plays_clip(pose, i) || ns == 0) continue;
+        if (!gn_pose_plays(pose, i) || ns == 0) continue;
         differ |= longest_ns > 0 && llabs(ns - longest_ns) > 1000000;
         if (ns > longest_ns) longest_ns = ns;
     }
@@ -228,7 +218,7 @@ static void choose_times(const struct gn_pose *pose, int64_t period_ns, int cell
     for (int i = 0; i < cells; i++) times[i] = -1;
     for (uint32_t c = 0; c < animation->clip_count; c++) {
         const struct gn_clip *clip = &animation->clips[c];
-        if (!plays_clip(pose, c)) continue;
+        if (!gn_pose_plays(pose, c)) continue;
         for (uint32_t i = 0; i < clip->channel_count; i++) {
             const struct gn_channel *channel = &animation->channels[clip->first_channel + i];
             if (channel->path == GN_ANIM_RECORD && !gn_channel_hides(pose->scene, channel))

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MODE_TRIANGLES = 4, MODE_STRIP = 5 };
 enum { CLOSED_CORNERS = 2 }; /* tested for being closed, for each vertex of the limit */
 
 /* The square of a larger number overflows a float. */
@@ -108,7 +107,7 @@ static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
     return raw;
 }
 
-static int compare_indices(const void *a, const void *b) {
+int gn_compare_indices(const void *a, const void *b) {
     const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
     return (x > y) - (x < y);
 }
@@ -121,15 +120,25 @@ static bool number_used_vertices(struct gn_gltf *g, uint32_t *corners, size_t co
     if (!list) return false;
     size_t n = 0;
     memcpy(list, corners, count * sizeof *list);
-    qsort(list, count, sizeof *list, compare_indices);
+    qsort(list, count, sizeof *list, gn_compare_indices);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || list[i] != list[n - 1]) list[n++] = list[i];
     for (size_t i = 0; i < count; i++) {
-        const uint32_t *at = bsearch(&corners[i], list, n, sizeof *list, compare_indices);
+        const uint32_t *at = bsearch(&corners[i], list, n, sizeof *list, gn_compare_indices);
         corners[i] = (uint32_t)(at - list);
     }
     *used_count = n;
     return true;
+}
+
+void gn_triangle_of(int64_t mode, const uint32_t *raw, size_t t, uint32_t out[3]) {
+    const size_t odd = t % 2;
+    if (mode == GN_MODE_TRIANGLES)
+        memcpy(out, raw + 3 * t, 3 * sizeof *out);
+    else if (mode == GN_MODE_STRIP)
+        memcpy(out, (uint32_t[]){raw[t], raw[t + 1 + odd], raw[t + 2 - odd]}, 3 * sizeof *out);
+    else
+        memcpy(out, (uint32_t[]){raw[t + 1], raw[t + 2], raw[0]}, 3 * sizeof *out);
 }
 
 /* Unrolls strips and fans into out, dropping triangles with equal indices or with a
@@ -139,19 +148,8 @@ static size_t unroll_triangles(struct gn_gltf *g, const struct gn_at *at,
                                const float *positions, uint32_t *out) {
     size_t count = 0, dropped = 0;
     for (size_t t = 0; t < shape->corner_count / 3; t++) {
-        const size_t odd = t % 2;
-        uint32_t v[3]; /* wound as in glTF 2.0, 3.7.2.1 */
-        if (shape->mode == MODE_TRIANGLES)
-            memcpy(v, raw + 3 * t, sizeof v);
-        else if (shape->mode == MODE_STRIP) {
-            v[0] = raw[t];
-            v[1] = raw[t + 1 + odd];
-            v[2] = raw[t + 2 - odd];
-        } else {
-            v[0] = raw[t + 1];
-            v[1] = raw[t + 2];
-            v[2] = raw[0];
-        }
+        uint32_t v[3];
+        gn_triangle_of(shape->mode, raw, t, v);
         if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
         if (position_is_usable(positions + 3 * (size_t)v[0]) &&
             position_is_usable(positions + 3 * (size_t)v[1]) &&

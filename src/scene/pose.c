@@ -86,7 +86,7 @@ static void pose_node(struct gn_pose *pose, uint32_t i) {
 
 /* ---- clips ---- */
 
-static bool clip_on(const struct gn_pose *pose, uint32_t clip) {
+bool gn_pose_plays(const struct gn_pose *pose, uint32_t clip) {
     if (pose->at.over == (int)clip) return true;
     if (pose->at.clips == GN_POSE_DEFAULT) return pose->scene->animation.clips[clip].on_by_default;
     return pose->at.clips == (int)clip;
@@ -171,7 +171,7 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
     /* marks and lists the nodes and items that the clips animate */
     for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
         const struct gn_clip *clip = &scene->animation.clips[c];
-        if (!clip_on(pose, c)) continue;
+        if (!gn_pose_plays(pose, c)) continue;
         if (clip->channel_count > 0) pose->animated = true;
         for (uint32_t i = 0; i < clip->channel_count; i++)
             mark_channel(pose, &scene->animation.channels[clip->first_channel + i]);
@@ -249,7 +249,7 @@ bool gn_pose_stands(const struct gn_pose *pose) {
     if (pose->at.fade < 1 || pose->at.over >= 0) return false;
     for (uint32_t c = 0; c < pose->scene->animation.clip_count; c++) {
         const int64_t ns = pose->scene->animation.clips[c].duration_ns;
-        if (clip_on(pose, c) && run->speed_less_1 != -1 && ns > 0 &&
+        if (gn_pose_plays(pose, c) && run->speed_less_1 != -1 && ns > 0 &&
             (run->turns != GN_POSE_ONCE ||
              gn_pose_clip_ns(run, ns, pose->at.time_ns - pose->at.begun_ns) < ns))
             return false;
@@ -284,7 +284,7 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     const struct gn_scene_animation *animation = &pose->scene->animation;
     if (pose->at.fade < 1) gn_deformer_rest(&memory->deformer, pose);
     for (uint32_t c = 0; c < animation->clip_count; c++)
-        if (clip_on(pose, c) && pose->at.over != (int)c)
+        if (gn_pose_plays(pose, c) && pose->at.over != (int)c)
             step_clip(pose, &animation->clips[c],
                       gn_pose_clip_ns(&pose->at.run, animation->clips[c].duration_ns,
                                       time_ns - pose->at.begun_ns));

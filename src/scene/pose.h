@@ -89,6 +89,7 @@ void gn_pose_choose_variant(struct gn_pose *pose, int variant);
 /* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; nodes that
  * are not animated cost nothing. */
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns);
+bool gn_pose_plays(const struct gn_pose *pose, uint32_t clip);
 /* Later times show the same as the last step did. */
 bool gn_pose_stands(const struct gn_pose *pose);
 void gn_pose_finish(struct gn_pose *pose);

@@ -8,6 +8,7 @@
 #include "core/hash.h"
 #include "image/ktx2.h"
 #include "image/scale.h"
+#include "scene/document.h"
 #include "scene/gltf/json.h"
 #include "scene/gltf/table.h"
 #include "scene/property.h"
@@ -305,6 +306,9 @@ void gn_accessor_gather(const struct gn_accessor *a, size_t components, const ui
 /* All elements as numbers, into out: count of them. The accessor is of unsigned scalars. */
 void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 
+/* geometry.c: of two uint32_t, for qsort(). */
+int gn_compare_indices(const void *a, const void *b);
+
 /* geometry_finish.c: steps of making a geometry that need only its triangles. */
 /* Flat normals for triangles that have none. positions: 3 x vertex_count. corners: corner_count
  * indices into them, which become indices into the *made vertices, at most corner_count; of these
@@ -400,7 +404,7 @@ uint64_t gn_gltf_picture_work(const struct gn_picture_need *need);
 /* Counts a picture that was decoded. */
 void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need);
 
-/* gltf/levels.c: the levels of a KTX2 file that texture_px allows. */
+/* The levels of a KTX2 file that texture_px allows. */
 bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct gn_ktx2 *ktx2,
                     struct gn_image *image, struct gn_err *err);
 

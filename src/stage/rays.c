@@ -101,7 +101,7 @@ static void finish_rays(struct gn_rays *rays) {
 
 static void cast(struct gn_rays *rays, void (*progress)(void *user, double share), void *user) {
     struct gn_raycast triangles;
-    gn_raycast_init_until(&triangles, rays->scene, rays->pose, &rays->cancel);
+    gn_raycast_init(&triangles, rays->scene, rays->pose, &rays->cancel);
     if (!atomic_load(&rays->cancel))
         gn_cast(&(struct gn_cast_opts){.rays = &triangles,
                                        .eye = &rays->eye,

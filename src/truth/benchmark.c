@@ -84,7 +84,7 @@ static bool make_soft(const struct gn_scene *scene, const struct gn_truth_opts *
     float *share = gn_xalloc(pixels, sizeof *share);
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     gn_pose_step(&pose, 0);
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, &pose, NULL);
     gn_ray_eye_init(&eye, &pose, opts->camera, opts->width_px, opts->height_px);
     gn_ray_lamp_init(&lamp, &pose, opts->light);
     gn_penumbra_cast(&rays, &eye, &lamp, share);

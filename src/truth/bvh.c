@@ -127,12 +127,8 @@ static void set_box(struct gn_bvh_node *node, const struct gn_bvh_triangle *t, u
     }
 }
 
-void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count) {
-    gn_bvh_build_until(bvh, triangles, count, NULL);
-}
-
-void gn_bvh_build_until(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count,
-                        const atomic_bool *cancel) {
+void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count,
+                  const atomic_bool *cancel) {
     *bvh = (struct gn_bvh){.triangles = triangles, .triangle_count = count};
     if (!count) return;
     struct bounds all = nothing;

@@ -44,11 +44,10 @@ struct gn_bvh_hit {
 typedef bool (*gn_bvh_accept)(const void *context, const struct gn_bvh_triangle *triangle,
                               const struct gn_bvh_hit *hit);
 
-/* Takes count triangles (malloc'ed, owned from here on, reordered). */
-void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count);
-/* Another thread sets *cancel to end it; then the tree may only be finished. NULL: none. */
-void gn_bvh_build_until(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count,
-                        const atomic_bool *cancel);
+/* Takes count triangles (malloc'ed, owned from here on, reordered). Another thread sets *cancel to
+ * end it; then the tree may only be finished. NULL: none. */
+void gn_bvh_build(struct gn_bvh *bvh, struct gn_bvh_triangle *triangles, uint32_t count,
+                  const atomic_bool *cancel);
 void gn_bvh_finish(struct gn_bvh *bvh);
 /* What a tree of so many triangles takes, with them. */
 uint64_t gn_bvh_bytes(uint64_t triangles);

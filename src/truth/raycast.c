@@ -57,12 +57,7 @@ static void copy_materials(struct gn_raycast *rays, const struct gn_pose *pose) 
 }
 
 void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
-                     const struct gn_pose *pose) {
-    gn_raycast_init_until(rays, scene, pose, NULL);
-}
-
-void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene,
-                           const struct gn_pose *pose, const atomic_bool *cancel) {
+                     const struct gn_pose *pose, const atomic_bool *cancel) {
     uint64_t room = 0;
     for (uint32_t i = 0; i < scene->item_count; i++)
         room += scene->geometries[scene->items[i].geometry].index_count / 3;
@@ -89,7 +84,7 @@ void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene
     }
     *rays = (struct gn_raycast){.scene = scene, .materials = scene->materials};
     copy_materials(rays, pose);
-    gn_bvh_build_until(&rays->bvh, triangles, count, cancel);
+    gn_bvh_build(&rays->bvh, triangles, count, cancel);
     rays->spiral = gn_xalloc(SPIRAL_MAX, sizeof *rays->spiral);
     for (int i = 0; i < SPIRAL_MAX; i++) spiral_at(i, rays->spiral[i]);
 }

@@ -35,12 +35,9 @@ struct gn_raycast {
 };
 
 /* Copies the triangles of all visible items to where the pose has them; scene must outlive it, pose
- * need not. */
+ * need not. Another thread sets *cancel to end it; then `rays` may only be finished. NULL: none. */
 void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
-                     const struct gn_pose *pose);
-/* Another thread sets *cancel to end it; then `rays` may only be finished. NULL: none. */
-void gn_raycast_init_until(struct gn_raycast *rays, const struct gn_scene *scene,
-                           const struct gn_pose *pose, const atomic_bool *cancel);
+                     const struct gn_pose *pose, const atomic_bool *cancel);
 void gn_raycast_finish(struct gn_raycast *rays);
 /* What gn_raycast_init() takes at most for a scene. */
 uint64_t gn_raycast_bytes(const struct gn_scene *scene);

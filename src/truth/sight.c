@@ -164,7 +164,7 @@ bool gn_truth_cast(struct gn_truth_frame *frame, struct gn_truth_pixel *pixels,
     gn_ray_lamp_init(&frame->lamp, pose, opts->light);
     plane_axes(frame);
     struct gn_raycast rays;
-    gn_raycast_init(&rays, scene, pose);
+    gn_raycast_init(&rays, scene, pose, NULL);
     struct job job = {.rays = &rays, .frame = frame, .pixels = pixels};
     cast_all(&job, opts->threads);
     frame->extent = fit_extent(&rays, frame, pixels);

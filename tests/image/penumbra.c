@@ -160,7 +160,7 @@ void gn_penumbra_truth_of(struct gn_picture *truth, const struct gn_scene *scene
     struct gn_ray_lamp lamp;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     gn_pose_step(&pose, 0);
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, &pose, NULL);
     gn_ray_eye_init(&eye, &pose, 0, width_px, height_px);
     gn_ray_lamp_init(&lamp, &pose, 0);
     if (point) lamp.radius = 0;

@@ -54,7 +54,7 @@ static void test_tree_agrees_with_every_triangle(void **state) {
         struct gn_bvh bvh;
         int hits = 0;
         gn_bvh_build(&bvh, random_triangles(cases[c].count, cases[c].size, cases[c].flat),
-                     cases[c].count);
+                     cases[c].count, NULL);
         for (int i = 0; i < 3000; i++) {
             struct gn_ray ray = random_ray(i);
             gn_bvh_accept accept = i & 1 ? odd_only : NULL;
@@ -77,7 +77,7 @@ static void test_empty_tree_has_no_hit(void **state) {
     struct gn_bvh bvh;
     struct gn_bvh_hit hit;
     struct gn_ray ray = random_ray(1);
-    gn_bvh_build(&bvh, gn_xalloc(1, sizeof(struct gn_bvh_triangle)), 0);
+    gn_bvh_build(&bvh, gn_xalloc(1, sizeof(struct gn_bvh_triangle)), 0, NULL);
     assert_false(gn_bvh_hit(&bvh, &ray, false, NULL, NULL, &hit));
     gn_bvh_finish(&bvh);
 }
@@ -106,7 +106,7 @@ static void test_no_ray_slips_between_triangles(void **state) {
                     memcpy(t[count].p[c], quad[c == 0 ? 0 : c + half], 3 * sizeof(double));
         }
     struct gn_bvh bvh;
-    gn_bvh_build(&bvh, t, count);
+    gn_bvh_build(&bvh, t, count, NULL);
     for (int i = 0; i < 20000; i++) {
         struct gn_ray ray = {.origin = {.1, .2, -.05}, .t_max = INFINITY};
         int r = 1 + (int)between(0, RINGS - 1), s = (int)between(0, SECTORS);
@@ -126,7 +126,7 @@ static void test_a_beam_holds_all_that_its_rays_meet(void **state) {
     enum { COUNT = 2000, MOST = 400 };
     struct gn_bvh bvh;
     int hits = 0, full = 0;
-    gn_bvh_build(&bvh, random_triangles(COUNT, .05, false), COUNT);
+    gn_bvh_build(&bvh, random_triangles(COUNT, .05, false), COUNT, NULL);
     for (int i = 0; i < 2000; i++) {
         struct gn_ray middle = random_ray(i);
         struct gn_beam beam = {.t_max = middle.t_max};
@@ -168,7 +168,7 @@ static void test_the_tree_of_a_geometric_row_is_not_too_deep(void **state) {
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < 3; k++) t[i].p[c][k] = at * (1 + .01 * (c == k));
     }
-    gn_bvh_build(&bvh, t, COUNT);
+    gn_bvh_build(&bvh, t, COUNT, NULL);
     for (int i = 0; i < 200; i++) {
         const struct gn_ray ray = {.origin = {2, 2, 2},
                                    .direction = {-1, -1 + 1e-4 * i, -1 - 1e-5 * i},

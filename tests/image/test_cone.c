@@ -57,7 +57,7 @@ static void view_init_of_size(struct view *v, struct gn_scene *scene, float radi
     if (radius > 0) scene->lights[0].radius = radius;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     gn_pose_step(&pose, 0);
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, &pose, NULL);
     gn_ray_eye_init(&eye, &pose, 0, width_px, height_px);
     gn_ray_lamp_init(&lamp, &pose, 0);
     gn_picture_init(&v->truth, width_px, height_px, 1);

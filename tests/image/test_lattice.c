@@ -141,7 +141,7 @@ static double find_truth(const double low[3], const double high[3], int samples)
     struct gn_ray_lamp lamp;
     double sum = 0;
     int count = 0;
-    gn_raycast_init(&rays, stage.scene, &stage.pose);
+    gn_raycast_init(&rays, stage.scene, &stage.pose, NULL);
     gn_ray_eye_init(&eye, &stage.pose, 0, WIDTH, HEIGHT);
     gn_ray_lamp_init(&lamp, &stage.pose, 0);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {

@@ -201,7 +201,7 @@ static void test_it_covers_what_rays_hit(void **state) {
     struct gn_raycast rays;
     struct gn_ray_lamp sun;
     long asked = 0, dark = 0, wrong = 0;
-    gn_raycast_init(&rays, stage.scene, &stage.pose);
+    gn_raycast_init(&rays, stage.scene, &stage.pose, NULL);
     gn_ray_lamp_init(&sun, &stage.pose, 0);
     for (int i = 0; i < EYES; i += 3) {
         const struct gn_orbit orbit = orbit_at(i / STEPS, i % STEPS);

@@ -86,7 +86,7 @@ static double ground[WIDTH * HEIGHT][2];
 static void find_ground(void) {
     struct gn_raycast rays;
     struct gn_ray_eye eye;
-    gn_raycast_init(&rays, stage.scene, &stage.pose);
+    gn_raycast_init(&rays, stage.scene, &stage.pose, NULL);
     gn_ray_eye_init(&eye, &stage.pose, 0, WIDTH, HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         struct gn_ray_surface s;

@@ -113,7 +113,7 @@ static int compare_at(const char *path, int clip, double time_s, double *worst, 
     const struct gn_ray_eye eye = eye_of(path, clip, time_s);
     struct gn_picture shot =
         shoot(path, clip, time_s, (const char *const[]){"--aov", "distance", NULL});
-    gn_bvh_build(&bvh, posed.triangles, posed.count); /* owns them now */
+    gn_bvh_build(&bvh, posed.triangles, posed.count, NULL); /* owns them now */
     int seen = 0, on_edge = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         const double x = i % WIDTH + .5, y = i / WIDTH + .5, drawn = (double)shot.data[i];

@@ -37,7 +37,7 @@ static double compare_triangles(const struct gn_pose *pose, const struct gn_pose
     struct gn_raycast rays;
     double worst = 0;
     uint32_t at = 0, count = 0;
-    gn_raycast_init(&rays, pose->scene, pose);
+    gn_raycast_init(&rays, pose->scene, pose, NULL);
     for (uint32_t i = 0; i < rays.bvh.triangle_count; i++) {
         const struct gn_bvh_triangle *t = &rays.bvh.triangles[i];
         const struct gn_item *item = &pose->scene->items[t->item];

@@ -146,7 +146,7 @@ static uint32_t item_in_view(bool turned, bool mirrored, bool double_sided, enum
     small_quad(&s, (float[]){-9, -9, -1}, (float[]){18, 0, 0}, (float[]){0, 18, 0});
     struct gn_raycast rays;
     struct gn_ray_surface seen;
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     assert_true(gn_raycast_eye(&rays, &front_eye, 40, 60, &seen));
     assert_true(seen.normal_ws[2] == 1);
     gn_raycast_finish(&rays);
@@ -172,7 +172,7 @@ static void test_eye_looks_through_the_middle_of_pixels(void **state) {
     small_init(&s);
     small_item(&s);
     small_quad(&s, (float[]){-9, -9, 0}, (float[]){18, 0, 0}, (float[]){0, 18, 0});
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     assert_true(gn_raycast_eye(&rays, &front_eye, 0, 0, &seen)); /* top left */
     assert_true(fabs(seen.point_ws[0] + .99 * .1 * 5) < 1e-12);
     assert_true(fabs(seen.point_ws[1] - .99 * .1 * 5) < 1e-12);
@@ -216,7 +216,7 @@ static bool is_opaque(const struct hole_case *hole) {
         (struct gn_texture_ref){.texture = 0, .uv_from_uv = {4, 0, 0, 1, -2, 0}};
     small_quad(&s, (float[]){-2, 1, 2}, (float[]){4, 0, 0}, (float[]){0, 0, -4});
     struct gn_raycast rays;
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     struct gn_ray_surface below = on_ground(hole->u, 0);
     struct gn_ray_lamp lamp = sun(0, -1, 0);
     bool dark = !gn_raycast_visible(&rays, &lamp, &below);
@@ -251,7 +251,7 @@ static void test_vertex_alpha_makes_holes(void **state) {
     s.colors[4 * 1 + 3] = s.colors[4 * 2 + 3] = 0; /* opaque at x = -2, clear at x = 2 */
     struct gn_raycast rays;
     struct gn_ray_lamp lamp = sun(0, -1, 0);
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     struct gn_ray_surface left = on_ground(-.01, .3), right = on_ground(.01, .3);
     assert_int_equal(gn_raycast_visible(&rays, &lamp, &left), 0);
     assert_int_equal(gn_raycast_visible(&rays, &lamp, &right), 1);
@@ -286,7 +286,7 @@ static void check_box_shadow(const struct gn_ray_lamp *lamp, const double light[
     small_init(&s);
     small_ground(&s, ground_m);
     small_box(&s, low, high);
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     int dark = 0, lit = 0;
     for (int i = 0; i < 20000; i++) {
         struct gn_ray_surface p = on_ground(between(-4, 4), between(-4, 4));
@@ -325,7 +325,7 @@ static void test_spot_is_cut_by_cone_and_range(void **state) {
     small_init(&s);
     small_ground(&s, 20);
     small_box(&s, (float[]){-9, 1, -9}, (float[]){9, 1.5f, 9}); /* a lid over everything */
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     struct gn_ray_lamp lamp = {.type = GN_LIGHT_SPOT,
                                .position_ws = {0, 2, 0},
                                .direction_ws = {0, -1, 0},
@@ -360,7 +360,7 @@ static void test_who_casts(void **state) {
         s.items[1].casts = !out;
         small_quad(&s, (float[]){-1, 1, turned ? -1 : 1}, (float[]){2, 0, 0},
                    (float[]){0, 0, turned ? 2 : -2});
-        gn_raycast_init(&rays, &s.scene, &s.pose);
+        gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
         struct gn_ray_surface p = on_ground(0, 0);
         assert_int_equal(gn_raycast_visible(&rays, &lamp, &p), out || blend);
         gn_raycast_finish(&rays);
@@ -375,12 +375,12 @@ static void test_turned_away_is_dark(void **state) {
     struct gn_raycast rays;
     small_init(&s);
     small_ground(&s, 5);
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     for (int i = 0; i < 2; i++) {
         s.items[0].casts = i == 0;
         if (i) {
             gn_raycast_finish(&rays);
-            gn_raycast_init(&rays, &s.scene, &s.pose);
+            gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
         }
         struct gn_ray_surface below = {
             .point_ws = {4.9999, 0, 0}, .normal_ws = {0, -1, 0}, .item = 0};
@@ -409,7 +409,7 @@ static void test_share_of_a_disk_behind_a_half_plane(void **state) {
     small_init(&s);
     small_item(&s);
     small_quad(&s, (float[]){0, 2, 100}, (float[]){100, 0, 0}, (float[]){0, 0, -200});
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     double worst = 0;
     for (int i = -30; i <= 30; i++) {
         double x = i * .017;
@@ -435,7 +435,7 @@ static void test_share_ends_at_the_horizon(void **state) {
     struct gn_raycast rays;
     small_init(&s);
     small_ground(&s, 5);
-    gn_raycast_init(&rays, &s.scene, &s.pose);
+    gn_raycast_init(&rays, &s.scene, &s.pose, NULL);
     struct gn_ray_surface p = on_ground(0, 0);
     p.item = 0;
     for (int i = -4; i <= 4; i++) {

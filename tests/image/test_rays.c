@@ -33,7 +33,7 @@ static void ask_oracle(const struct gn_scene *scene, int64_t time_ns, uint32_t c
     struct gn_ray_lamp lamp;
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     gn_pose_step(&pose, time_ns);
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, &pose, NULL);
     gn_ray_eye_init(&eye, &pose, camera, WIDTH, HEIGHT);
     gn_ray_lamp_init(&lamp, &pose, 0);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
@@ -100,7 +100,7 @@ static void test_threads_change_no_bit(void **state) {
     struct gn_ray_lamp lamp;
     static float one[WIDTH * HEIGHT], many[WIDTH * HEIGHT];
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, &pose, NULL);
     gn_ray_eye_init(&eye, &pose, 0, WIDTH, HEIGHT);
     gn_ray_lamp_init(&lamp, &pose, 0);
     struct gn_cast_opts opts = {
@@ -175,7 +175,7 @@ static int count_apart(struct help_stage *stage, const struct gn_frame_view_opts
     if (!gn_gl_read_f32(stage->gl, drawn, &err)) fail_msg("%s", err.text);
     gn_frame_camera(&stage->pose, view, (float)WIDTH / HEIGHT, &framing);
     gn_ray_eye_look(&eye, &framing, WIDTH, HEIGHT);
-    gn_raycast_init(&rays, stage->scene, &stage->pose);
+    gn_raycast_init(&rays, stage->scene, &stage->pose, NULL);
     *seen = 0;
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
         struct gn_ray_surface surface;

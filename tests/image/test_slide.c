@@ -251,7 +251,7 @@ static struct verdict compare(const struct beam *beam) {
     struct gn_scene *scene = gn_scene_load(path, NULL, NULL, &err);
     if (!scene) fail_msg("%s", err.text);
     gn_pose_init(&pose, scene, GN_POSE_NONE);
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, &pose, NULL);
     gn_ray_eye_init(&eye, &pose, 0, WIDTH, HEIGHT);
     const struct lamp lamp = lamp_of(&pose);
     shoot(&shown, path, "color", beam->technique);

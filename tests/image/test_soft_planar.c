@@ -95,7 +95,7 @@ static int find_shares(const struct gn_scene *scene, float *shares) {
     int count = 0;
     find_truth(&truth, scene);
     gn_pose_init(&pose, scene, GN_POSE_NONE);
-    gn_raycast_init(&rays, scene, &pose);
+    gn_raycast_init(&rays, scene, &pose, NULL);
     for (int i = 0; i < PIXELS; i++) {
         struct gn_ray_surface surface;
         const int x = i % WIDTH, y = i / WIDTH;

@@ -15,10 +15,6 @@ enum { HEADER = 12, CHUNK = 8 };
 #define CHUNK_JSON 0x4e4f534aU
 #define CHUNK_BIN  0x004e4942U
 
-static uint32_t read_u32(const uint8_t *p) {
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
-
 static bool has_bom(const uint8_t *text, size_t size) {
     return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0;
 }
@@ -31,7 +27,7 @@ static bool parse_json(struct gn_gltf *g, const uint8_t *text, size_t size, size
 /* ---- .glb ---- */
 
 static bool read_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
-    uint32_t length = read_u32(data + at), type = read_u32(data + at + 4);
+    uint32_t length = gn_u32_at(data + at), type = gn_u32_at(data + at + 4);
     const uint8_t *body = data + at + CHUNK;
     if (at == HEADER && type != CHUNK_JSON)
         return gn_gltf_fail(g, NULL, "byte %zu: the first chunk must be JSON", at + 4);
@@ -50,7 +46,7 @@ static bool read_chunk(struct gn_gltf *g, const uint8_t *data, size_t at) {
 static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
     if (size < HEADER + CHUNK)
         return gn_gltf_fail(g, NULL, "byte %zu: the file ends within the .glb header", size);
-    uint32_t version = read_u32(data + 4), length = read_u32(data + 8);
+    uint32_t version = gn_u32_at(data + 4), length = gn_u32_at(data + 8);
     if (version != 2)
         return gn_gltf_fail(g, NULL,
                             "byte 4: .glb version %" PRIu32 "; only version 2 is read: "
@@ -68,7 +64,7 @@ static bool open_glb(struct gn_gltf *g, const uint8_t *data, size_t size) {
 
     size_t at = HEADER;
     while (size - at >= CHUNK) {
-        uint32_t chunk = read_u32(data + at);
+        uint32_t chunk = gn_u32_at(data + at);
         if (chunk > size - at - CHUNK)
             return gn_gltf_fail(g, NULL, "byte %zu: a chunk of %" PRIu32 " bytes, but %zu are left",
                                 at, chunk, size - at - CHUNK);

@@ -9,8 +9,6 @@
 
 #include "scene/gltf/table.h"
 
-enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
-
 struct reader {
     struct gn_gltf *g;
     struct gn_table shapes, vertices;
@@ -98,11 +96,11 @@ static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, 
 /* Fills the shape's key and size; false: failed or nothing to show. */
 static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive,
                        const uint64_t uv_sets[GN_UV_SETS], struct gn_shape *shape) {
-    uint64_t mode = gn_at_uint(g, primitive, "mode", MODE_TRIANGLES);
+    uint64_t mode = gn_at_uint(g, primitive, "mode", GN_MODE_TRIANGLES);
     struct gn_at mode_at = gn_at_any(primitive, "mode"),
                  indices_at = gn_at_any(primitive, "indices");
-    if (mode > MODE_FAN) return gn_gltf_fail(g, &mode_at, "%" PRIu64 " is not in 0..6", mode);
-    if (mode < MODE_TRIANGLES) {
+    if (mode > GN_MODE_FAN) return gn_gltf_fail(g, &mode_at, "%" PRIu64 " is not in 0..6", mode);
+    if (mode < GN_MODE_TRIANGLES) {
         gn_gltf_warn(g, primitive, "points and lines are not shown");
         return false;
     }
@@ -119,14 +117,14 @@ static bool read_shape(struct gn_gltf *g, const struct gn_at *primitive,
                                       indices->component != GN_U32)))
         return gn_gltf_fail(g, &indices_at, "must be SCALAR of unsigned bytes, shorts or ints");
     if (indices) count = indices->count;
-    if (mode == MODE_TRIANGLES && count % 3 != 0)
+    if (mode == GN_MODE_TRIANGLES && count % 3 != 0)
         gn_gltf_warn(g, primitive,
                      "%" PRIu64 " indices are not a multiple of 3; the last "
                      "%d ignored",
                      count, (int)(count % 3));
-    shape->corner_count = mode == MODE_TRIANGLES ? count - count % 3
-                          : count < 3            ? 0
-                                                 : 3 * (count - 2);
+    shape->corner_count = mode == GN_MODE_TRIANGLES ? count - count % 3
+                          : count < 3               ? 0
+                                                    : 3 * (count - 2);
     if (shape->corner_count == 0) gn_gltf_warn(g, primitive, "has no triangle");
     return shape->corner_count > 0;
 }
