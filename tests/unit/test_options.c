@@ -193,6 +193,8 @@ static void wrong_words_are_explained(void **state) {
     assert_wrong("render --shadow banana", "planar"); /* the last of the names */
     assert_wrong("render -q", "unknown option -q");
     assert_wrong("render --size", "--size needs a value: WxH");
+    assert_wrong("show --check --here", "--check needs a value: FILE");
+    assert_wrong("render --out --size=64x64", "--out needs a value: FILE");
     assert_wrong("render --plan=yes", "--plan takes no value");
     assert_wrong("inspect --map 64",
                  "--map does not go with inspect; it goes with show, render, bench");
