@@ -371,9 +371,12 @@ static void a_default_is_printed_with_its_unit(void **state) {
         const char *option, *phrase;
     } rows[] = {{"size", " (default 1280x720 pixels)"},
                 {"shadow", " (default pcf)"},
+                {"output", ". One of: srgb, "},
+                {"light-color", "does not count. Or: auto (default auto)"},
+                {"content", ". Or: no (default no)"},
                 {"exposure", " (in stops; default auto)"},
                 {"max-fps", " (in frames per second)"},
-                {"limit", ": file_mb=512, memory_mb=1024 or 1/2 of the memory, "}};
+                {"limit", ". Limits: file_mb=512, memory_mb=1024 or 1/2 of the memory, "}};
     char text[500];
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
