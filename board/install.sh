@@ -34,6 +34,10 @@ END
 755 bin/gnomon-import $B/gnomon-import
 644 $share/man/man1/gnomon-import.1 board/gnomon-import.1
 END
+    for page in board/README.md board/wall.md board/*/README.md; do
+        echo "644 $share/doc/gnomon/$page $page"
+        [ ! -f "${page%README.md}kiosk.ini" ] || echo "644 $share/doc/gnomon/${page%README.md}kiosk.ini ${page%README.md}kiosk.ini"
+    done
 }
 
 install_one() {
@@ -61,8 +65,9 @@ uninstall)
     files | while read -r mode target sources; do
         rm -f "$DESTDIR$PREFIX/$target"
     done
-    for folder in share/doc/gnomon share/gnomon lib/gnomon; do
-        rmdir "$DESTDIR$PREFIX/$folder" 2> /dev/null || true
+    for folder in "$DESTDIR$PREFIX/$share"/doc/gnomon/board/* "$DESTDIR$PREFIX/$share"/doc/gnomon/board \
+        "$DESTDIR$PREFIX/$share"/doc/gnomon "$DESTDIR$PREFIX/$share"/gnomon "$DESTDIR$PREFIX"/lib/gnomon; do
+        rmdir "$folder" 2> /dev/null || true
     done
     ;;
 list) files | cut -d ' ' -f 2 ;;

@@ -29,17 +29,18 @@ const struct gn_help_entry gn_help_exits[] = {
 void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size) {
     char limits[400];
     const char *word, *fallback = row->fallback, *unit = row->unit;
+    const bool only_words = row->kind != GN_KIND_COLOR && row->kind != GN_KIND_PATH;
     snprintf(out, size, "%s", row->help);
     for (int i = 0; (word = gn_value_word(row, i)); i++)
         gn_text_add(out, size, "%s%s",
-                    i == 0 ? ": "
+                    i == 0 ? (only_words ? ". One of: " : ". Or: ")
                     : row->kind == GN_KIND_TECHNIQUES && i == GN_TECHNIQUE_TRUTH
                         ? "; for render also "
                         : ", ",
                     word);
     if (row->kind == GN_KIND_LIMIT) {
         gn_scene_limits_list(limits, sizeof limits);
-        gn_text_add(out, size, ": %s", limits);
+        gn_text_add(out, size, ". Limits: %s", limits);
     }
     /* "(default 1280x720 pixels)", "(in degrees)", "(in stops; default auto)" */
     if (fallback && (!unit || strchr("-0123456789", fallback[0])))

@@ -62,14 +62,25 @@ bool gn_show_bar_moves(const struct gn_show_screen *s) {
 /* NULL: the change has no caption. */
 static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_view *view) {
     struct gn_show_text *t = &s->text;
-    const char *const *names = s->show->modes.names;
+    const struct gn_show_modes *modes = &s->show->modes;
+    const char *name = modes->names[view->caption_mode];
+    const bool waits = view->mode != view->caption_mode, /* the picture is not of that yet */
+        only = modes->count == 1 && !s->rules.names_first;
     switch (view->caption) {
     case GN_KIOSK_CAPTION_MODE:
-        if (!s->split.on) return names[view->caption_mode];
-        snprintf(t->modes, sizeof t->modes, "%.50s | %.50s", names[s->split.left],
-                 s->truth.on ? "truth" : names[view->caption_mode]);
+        if (s->split.on)
+            snprintf(t->modes, sizeof t->modes, "%.50s | %.50s%s", modes->names[s->split.left],
+                     s->truth.on ? "truth" : name, waits ? " .." : "");
+        else
+            snprintf(t->modes, sizeof t->modes, "%.80s%s", name,
+                     waits  ? " .."
+                     : only ? ": the only mode"
+                            : "");
         return t->modes;
-    case GN_KIOSK_CAPTION_SCENE: return scene_name(s, view->caption_scene);
+    case GN_KIOSK_CAPTION_SCENE:
+        snprintf(t->modes, sizeof t->modes, "%.100s%s", scene_name(s, view->caption_scene),
+                 view->scene != view->caption_scene ? " .." : "");
+        return t->modes;
     case GN_KIOSK_CAPTION_CAMERA:
         return s->stage.scene->cameras[s->stage.shown.opts.view.camera].name;
     case GN_KIOSK_CAPTION_NOTE: return s->viewer.note;

@@ -239,6 +239,8 @@ static void enter_wanted(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     const bool enters = s->shown.mode != s->wanted.mode;
     if (e->scene != before || (enters && rules->own_camera >> e->mode & 1)) s->camera = 0;
     s->fade_begun_ns = rules->fade_ns > 0 ? e->time_ns : 0;
+    if (s->caption == GN_KIOSK_CAPTION_MODE || s->caption == GN_KIOSK_CAPTION_SCENE)
+        set_caption(s, s->caption, e->time_ns); /* for its time, with what it names */
     s->shown = s->wanted;
     enter_clips(rules, s, e->time_ns,
                 e->scene == before && is_same_place(&s->play.wanted, &s->wanted));

@@ -19,6 +19,10 @@ void gn_split_toggle(struct gn_show_screen *s) {
         gn_split_end(s);
         return;
     }
+    if (s->show->modes.count < 2) {
+        gn_show_note(s, "%s: the only mode", s->show->modes.names[0]);
+        return;
+    }
     s->split = (struct gn_show_split){.on = true, .left = s->kiosk.shown.mode, .at = 0.5f};
     gn_show_act(s, &next, gn_loop_now_ns(s->show->loop));
     s->changed = true;

@@ -32,7 +32,13 @@ static bool add_flag(struct args *args, const struct gn_option_row *row, const c
                      const char *label, struct gn_err *err) {
     bool is_flag = row->kind == GN_KIND_FLAG;
     if (is_flag && text) return gn_fail_usage(err, "%s takes no value", label);
-    if (!is_flag && !text) text = args->argv[args->at] ? args->argv[args->at++] : NULL;
+    const char *next = args->argv[args->at];
+    const bool is_option =
+        next && strncmp(next, "--", 2) == 0 && gn_option_find(next + 2, strcspn(next + 2, "="));
+    if (!is_flag && !text && next && !is_option) {
+        text = next;
+        args->at++;
+    }
     if (!is_flag && !text) return gn_fail_usage(err, "%s needs a value: %s", label, row->value);
     struct flag *flag = &args->flags[args->flag_count++];
     *flag = (struct flag){.row = row, .text = is_flag ? "yes" : text};

@@ -83,7 +83,8 @@ static bool open_section(struct load *load, const struct gn_ini_line *line, stru
 
 static bool fail_key(const struct gn_ini_line *line, const struct gn_section_row *section,
                      struct gn_err *err) {
-    char keys[400] = "", names[GN_OPTION_COUNT][40]; /* the nearest is one of all */
+    char keys[400] = "", others[200] = "",
+         names[GN_OPTION_COUNT][40]; /* the nearest is one of all */
     struct gn_text_guess guess = {0};
     int count;
     const struct gn_option_row *rows = gn_section_options(section, &count);
@@ -92,6 +93,16 @@ static bool fail_key(const struct gn_ini_line *line, const struct gn_section_row
         gn_text_guess(&guess, line->key, names[i]);
         gn_text_add(keys, sizeof keys, "%s %s", keys[0] ? "," : "", names[i]);
     }
+    for (int i = 0; i < GN_SECTION_COUNT; i++) { /* of another section, as it is spelled */
+        if (gn_section_rows[i].title == section->title ||
+            !gn_section_find_key(&gn_section_rows[i], line->key))
+            continue;
+        gn_text_add(others, sizeof others, "%s [%s]", others[0] ? "," : "",
+                    gn_section_rows[i].title);
+    }
+    if (others[0])
+        return gn_fail_usage(err, "%s: unknown key \"%s\" in [%s]; it is a key of%s", line->where,
+                             line->key, line->section, others);
     if (!guess.name)
         return gn_fail_usage(err, "%s: unknown key \"%s\"; keys of [%s]:%s", line->where, line->key,
                              line->section, keys);

@@ -138,7 +138,8 @@ static void keys_that_are_none_or_there_already(void **state) {
     assert_refused("[button \"a\"]\nlien = X\n", 2,
                    "unknown key \"lien\" in [button]; expected line");
     assert_refused("[button \"a\"]\nshadow = pcf\n", 2,
-                   "unknown key \"shadow\"; keys of [button]: line, keys, chord,");
+                   "unknown key \"shadow\" in [button]; it is a key of [render], [mode \"NAME\"], "
+                   "[light \"NAME\"]");
     assert_refused("[button \"a\"]\nline = X\n\nline = Y\n", 4, "line is set already, in line 2");
     assert_refused("[button \"a\"]\n[button \"b\"]\n[button \"a\"]\n", 3,
                    "button \"a\" is there already, in line 1");

@@ -304,6 +304,8 @@ static void what_a_file_may_not_say(void **state) {
     assert_file_refused("[mode \"a\"]\n[mode \"b\"]\n[mode \"a\"]\n",
                         "bad.ini:3: mode \"a\" is there already, in line 1");
     assert_file_refused("[light]\nshadow = pcf\n", "bad.ini:2: unknown key \"shadow\"");
+    assert_file_refused("[render]\nfade = 1\n",
+                        "bad.ini:2: unknown key \"fade\" in [render]; it is a key of [kiosk]");
     assert_file_refused("[light]\non = no\n", "bad.ini:2: unknown key \"on\"");
     assert_file_refused("[light]\ncolor = red\n",
                         "bad.ini:2: color: \"red\" is not #rrggbb or one of auto");
@@ -326,7 +328,7 @@ static void what_a_file_may_not_say(void **state) {
     assert_file_refused("[light \"a\"]\nshadw = pcf\n",
                         "bad.ini:2: unknown key \"shadw\" in [light]; expected shadow");
     assert_file_refused("[light \"a\"]\nmsaa = 4\n",
-                        "bad.ini:2: unknown key \"msaa\"; keys of [light]: shadow,");
+                        "bad.ini:2: unknown key \"msaa\" in [light]; it is a key of [render]");
 }
 
 static void there_are_so_many_lights(void **state) {

@@ -163,6 +163,23 @@ static void a_mode_that_does_not_compile_is_passed_over(void **state) {
     assert_int_equal(s.wanted.mode, 2);
 }
 
+/* However long its programs took, the name stands with its picture for the time of a caption. */
+static void a_caption_begins_anew_with_what_it_names(void **state) {
+    (void)state;
+    struct gn_kiosk s = act(&three, (struct gn_kiosk){0}, S, GN_ACTION_NEXT);
+    assert_true(gn_kiosk_view(&three, &s, S).mode != gn_kiosk_view(&three, &s, S).caption_mode);
+    s = ready(&three, s, 2 * S, 1, 0);
+    s = on(&three, s, GN_KIOSK_TICK, 3 * S + S / 2);
+    assert_int_equal(gn_kiosk_view(&three, &s, 3 * S + S / 2).caption, GN_KIOSK_CAPTION_MODE);
+    s = on(&three, s, GN_KIOSK_TICK, 4 * S);
+    assert_int_equal(gn_kiosk_view(&three, &s, 4 * S).caption, GN_KIOSK_CAPTION_NONE);
+    s = on(&three, s, GN_KIOSK_TICK, 5 * S); /* without one none is made */
+    s = act(&three, s, 5 * S, GN_ACTION_NEXT);
+    s = on(&three, s, GN_KIOSK_TICK, 8 * S);
+    s = ready(&three, s, 9 * S, 2, 0);
+    assert_int_equal(gn_kiosk_view(&three, &s, 9 * S).caption, GN_KIOSK_CAPTION_NONE);
+}
+
 static void captions_and_fades_end(void **state) {
     (void)state;
     struct gn_kiosk s = act(&three, (struct gn_kiosk){0}, S, GN_ACTION_NEXT);
@@ -323,6 +340,7 @@ int main(void) {
         cmocka_unit_test(the_only_other_scene_is_tried_again),
         cmocka_unit_test(a_mode_may_have_a_scene_of_its_own),
         cmocka_unit_test(a_mode_that_does_not_compile_is_passed_over),
+        cmocka_unit_test(a_caption_begins_anew_with_what_it_names),
         cmocka_unit_test(captions_and_fades_end),
         cmocka_unit_test(idleness_goes_to_the_first_or_to_the_next),
         cmocka_unit_test(idleness_closes_the_info_page),

@@ -193,6 +193,8 @@ static void wrong_words_are_explained(void **state) {
     assert_wrong("render --shadow banana", "planar"); /* the last of the names */
     assert_wrong("render -q", "unknown option -q");
     assert_wrong("render --size", "--size needs a value: WxH");
+    assert_wrong("show --check --here", "--check needs a value: FILE");
+    assert_wrong("render --out --size=64x64", "--out needs a value: FILE");
     assert_wrong("render --plan=yes", "--plan takes no value");
     assert_wrong("inspect --map 64",
                  "--map does not go with inspect; it goes with show, render, bench");
@@ -369,9 +371,12 @@ static void a_default_is_printed_with_its_unit(void **state) {
         const char *option, *phrase;
     } rows[] = {{"size", " (default 1280x720 pixels)"},
                 {"shadow", " (default pcf)"},
+                {"output", ". One of: srgb, "},
+                {"light-color", "does not count. Or: auto (default auto)"},
+                {"content", ". Or: no (default no)"},
                 {"exposure", " (in stops; default auto)"},
                 {"max-fps", " (in frames per second)"},
-                {"limit", ": file_mb=512, memory_mb=1024 or 1/2 of the memory, "}};
+                {"limit", ". Limits: file_mb=512, memory_mb=1024 or 1/2 of the memory, "}};
     char text[500];
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
