@@ -3,8 +3,8 @@
 #ifndef GN_GL_SCENE_H
 #define GN_GL_SCENE_H
 
+#include "gl/coverage.h"
 #include "gl/state.h"
-#include "image/coverage.h"
 
 struct gn_gl_curve {   /* sRGB by table (mipmap.c) */
     float decode[256]; /* of a byte: its light, in quarter steps of encode */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/coverage.h"
+#include "gl/coverage.h"
 #include "unit/check.h"
 
 enum { SIDE = 256 };

@@ -1,9 +1,9 @@
 /* Alpha of smaller pictures of a mask, so that as much of them is at or over the cutoff as of the
  * whole picture: the mean of alphas is under the cutoff where a mask is fine, and leaves dissolve
  * with distance. After Castano, "Computing alpha mipmaps", 2010, but for the surface between texels
- * that a sampler sees instead of texels. */
-#ifndef GN_IMAGE_COVERAGE_H
-#define GN_IMAGE_COVERAGE_H
+ * that a sampler sees instead of texels. No GL. */
+#ifndef GN_GL_COVERAGE_H
+#define GN_GL_COVERAGE_H
 
 #include <stdbool.h>
 #include <stdint.h>

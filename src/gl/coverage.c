@@ -1,4 +1,4 @@
-#include "image/coverage.h"
+#include "gl/coverage.h"
 
 #include <math.h>
 #include <string.h>
