@@ -5,12 +5,12 @@
 
 enum {
     STEPS = 1024, /* of alpha, in which samples are counted */
-    POINTS = 256, /* samples along a side of the whole picture, at most */
-    FIT_POINTS = 96,
+    POINTS = 192, /* samples along a side of the whole picture, at most */
+    FIT_POINTS = 64,
     PER_TEXEL = 4, /* samples along a side of a texel, at most */
-    FITS = 12,
+    FITS = 6,
 };
-#define CLOSE 0.01f /* share of a share */
+#define CLOSE 0.02f /* share of a share */
 
 /* Where between 0 and 1 a sample lies in its cell, so that no regular mask hides between samples
  * (Wellons' integer hash). */
