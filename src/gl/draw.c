@@ -89,9 +89,9 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
         GL(gl, Uniform4fv)(program->u_pass, (GLsizei)pass->constant_count, pass->constants[0]);
     }
     if (geometry && program->texture_slots) {
-        const struct gn_texture_ref *refs = gl->scene.scene->materials[d->material].textures;
+        const struct gn_material *material = &gl->scene.scene->materials[d->material];
         for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
-            if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, slot, &refs[slot]);
+            if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, material, slot);
     }
     if (geometry && (program->u_uv >= 0 || program->u_factors >= 0)) {
         const uint32_t uv = gl->scene.material_uv[d->material];

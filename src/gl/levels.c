@@ -52,8 +52,8 @@ bool gn_gl_levels_open(struct gn_gl *gl, uint32_t index) {
     p->mipmaps = whole.mipmaps;
     p->levels = whole.mipmaps ? (GLsizei)(whole.level_count - first) : 1;
     GL(gl, TexStorage2D)
-    (GL_TEXTURE_2D, p->levels, formats[whole.packing][p->srgb], (GLsizei)p->image.width_px,
-     (GLsizei)p->image.height_px);
+    (GL_TEXTURE_2D, p->levels, formats[whole.packing][p->texels != GN_GL_DATA],
+     (GLsizei)p->image.width_px, (GLsizei)p->image.height_px);
     gl->scene.texture_bytes += gn_packing_all_bytes(
         whole.packing, (uint32_t[]){p->image.width_px, p->image.height_px}, (uint32_t)p->levels);
     return true;
@@ -71,8 +71,8 @@ static void send_part(struct gn_gl *gl, const struct gn_gl_picture *p, const uin
     (GL_TEXTURE_2D, p->level, 0, y, (GLsizei)px[0], height, GL_RGBA, GL_UNSIGNED_BYTE,
      p->next + row * first);
     else GL(gl, CompressedTexSubImage2D)(GL_TEXTURE_2D, p->level, 0, y, (GLsizei)px[0], height,
-                                         formats[packing][p->srgb], (GLsizei)(row * (end - first)),
-                                         p->next + row * first);
+                                         formats[packing][p->texels != GN_GL_DATA],
+                                         (GLsizei)(row * (end - first)), p->next + row * first);
 }
 
 size_t gn_gl_levels_send(struct gn_gl *gl, size_t bytes) {

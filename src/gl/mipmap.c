@@ -1,7 +1,8 @@
 /* Smaller pictures by the mean of 2 x 2 texels, in linear light where they are sRGB. For pictures
  * larger than the GPU accepts, and for all levels with a software GPU: llvmpipe takes thirty times
- * as long, most of it to compile. No GL. */
+ * as long, most of it to compile; for masks always. No GL. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/srgb.h"
 #include "gl/private.h"
@@ -22,8 +23,24 @@ struct gn_image gn_gl_image_half(const struct gn_image *image) {
                              .height_px = image->height_px > 1 ? image->height_px / 2 : 1};
 }
 
+/* The mean of texels, of colour by alpha: what is clear has no part in it. False: all are clear. */
+static bool mix_by_alpha(const struct gn_gl_curve *curve, const uint8_t *const *in, int count,
+                         uint8_t to[4]) {
+    uint32_t alpha = 0;
+    for (int i = 0; i < count; i++) alpha += in[i][3];
+    if (alpha == 0) return false;
+    for (int c = 0; c < 3; c++) {
+        float sum = 0.0f;
+        for (int i = 0; i < count; i++) sum += curve->decode[in[i][c]] * (float)in[i][3];
+        to[c] = curve->encode[(int)(4.0f * sum / (float)alpha + 0.5f)];
+    }
+    to[3] = (uint8_t)((alpha + (uint32_t)count / 2) / (uint32_t)count);
+    return true;
+}
+
 void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_image *image,
-                            uint32_t first, uint32_t count, bool srgb, uint8_t *out) {
+                            uint32_t first, uint32_t count, enum gn_gl_texels texels,
+                            uint8_t *out) {
     const uint32_t width = gn_gl_image_half(image).width_px;
     const size_t right = image->width_px > 1 ? 4 : 0;
     const size_t below = image->height_px > 1 ? 4ul * image->width_px : 0;
@@ -32,8 +49,9 @@ void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_ima
         for (uint32_t x = 0; x < width; x++, to += 4) {
             const uint8_t *p = image->rgba + 4 * (2ul * y * image->width_px + 2ul * x);
             const uint8_t *const in[4] = {p, p + right, p + below, p + below + right};
+            if (texels >= GN_GL_MASK && mix_by_alpha(curve, in, 4, to)) continue;
             for (int c = 0; c < 4; c++) {
-                if (!srgb || c == 3) {
+                if (texels == GN_GL_DATA || c == 3) {
                     to[c] = (uint8_t)((in[0][c] + in[1][c] + in[2][c] + in[3][c] + 2) / 4);
                     continue;
                 }
@@ -44,11 +62,32 @@ void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_ima
         }
 }
 
-uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb) {
+void gn_gl_image_mask_rows(const struct gn_gl_curve *curve, const struct gn_image *image,
+                           uint32_t first, uint32_t count, const uint8_t alpha[256], uint8_t *out) {
+    const uint32_t width = image->width_px, height = image->height_px;
+    for (uint32_t y = first; y < first + count; y++)
+        for (uint32_t x = 0; x < width; x++, out += 4) {
+            const uint8_t *texel = image->rgba + 4 * ((size_t)y * width + x);
+            memcpy(out, texel, 4);
+            if (texel[3] == 0) { /* filters mix it with those beside it */
+                const uint8_t *in[9];
+                for (int i = 0; i < 9; i++) {
+                    const uint32_t u = (x + width + (uint32_t)(i % 3) - 1) % width,
+                                   v = (y + height + (uint32_t)(i / 3) - 1) % height;
+                    in[i] = image->rgba + 4 * ((size_t)v * width + u);
+                }
+                mix_by_alpha(curve, in, 9, out);
+            }
+            out[3] = alpha[texel[3]];
+        }
+}
+
+uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image,
+                           enum gn_gl_texels texels) {
     struct gn_image half = gn_gl_image_half(image);
     uint8_t *out = malloc(4ul * half.width_px * half.height_px);
     if (!out) return NULL;
-    gn_gl_image_halve_rows(curve, image, 0, half.height_px, srgb, out);
+    gn_gl_image_halve_rows(curve, image, 0, half.height_px, texels, out);
     half.rgba = out;
     *image = half;
     return out;

@@ -3,6 +3,7 @@
 #ifndef GN_GL_SCENE_H
 #define GN_GL_SCENE_H
 
+#include "gl/coverage.h"
 #include "gl/state.h"
 
 struct gn_gl_curve {   /* sRGB by table (mipmap.c) */
@@ -10,13 +11,24 @@ struct gn_gl_curve {   /* sRGB by table (mipmap.c) */
     uint8_t encode[8192];
 };
 void gn_gl_curve_init(struct gn_gl_curve *curve);
+enum gn_gl_texels { /* a picture has a texture for each */
+                    GN_GL_DATA,
+                    GN_GL_COLOR, /* sRGB */
+                    GN_GL_MASK,  /* and those after it, sRGB: of a cutoff of it, which levels reach
+                                    as much */
+                    GN_GL_TEXELS_COUNT = GN_GL_MASK + GN_CUTOFFS_MAX,
+};
 /* Makes *image half as large, in new memory that is also returned: the caller frees it. NULL: there
  * is none. */
-uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image, bool srgb);
+uint8_t *gn_gl_image_halve(const struct gn_gl_curve *curve, struct gn_image *image,
+                           enum gn_gl_texels texels);
 /* The same row by row: the size of the half, then some of its rows. */
 struct gn_image gn_gl_image_half(const struct gn_image *image);
 void gn_gl_image_halve_rows(const struct gn_gl_curve *curve, const struct gn_image *image,
-                            uint32_t first, uint32_t count, bool srgb, uint8_t *out);
+                            uint32_t first, uint32_t count, enum gn_gl_texels texels, uint8_t *out);
+/* Rows of a mask with their alpha by a curve; what is clear has the colour of what is beside it. */
+void gn_gl_image_mask_rows(const struct gn_gl_curve *curve, const struct gn_image *image,
+                           uint32_t first, uint32_t count, const uint8_t alpha[256], uint8_t *out);
 
 struct gn_gl_vertices { /* one vertex array per set of attributes in use */
     GLuint name;
@@ -28,13 +40,19 @@ enum { GN_GL_VERTICES_MAX = 32, GN_GL_INSTANCE_RING = 3, GN_GL_SAMPLER_KINDS = 1
 struct gn_gl_picture { /* being uploaded, a few rows at a time */
     struct gn_image image;
     uint8_t *owned; /* its pixels, if they are ours; freed when it is uploaded */
-    bool open, srgb, mipmaps;
+    enum gn_gl_texels texels;
+    bool open, mipmaps;
     GLint level;
     GLsizei levels;
     uint32_t row;        /* of the level, of texels or blocks: uploaded so far */
     const uint8_t *next; /* of KTX2: the level that is uploaded as it is */
     struct gn_image half;
     uint8_t *half_owned; /* the next level, in progress */
+    /* of a mask: */
+    struct gn_coverage cover; /* of the whole picture */
+    uint32_t halved;          /* rows of that level: all are made before the first is uploaded */
+    uint8_t alpha[256];       /* what takes the place of each alpha of a smaller level */
+    bool fitted;              /* alpha is set: the level is not the whole picture */
 };
 enum gn_gl_upload_phase {
     GN_GL_UPLOAD_POSITIONS,
@@ -67,7 +85,7 @@ struct gn_gl_scene {
     GLint attribute_at[GN_ATTRIBUTE_COUNT]; /* byte offsets; -1: no such in this scene, or the
                                                position */
     uint32_t image_count;                   /* kept: the scene may be gone when we finish */
-    GLuint *images[2];                      /* by image: linear, sRGB; 0 where not used so */
+    GLuint *images[GN_GL_TEXELS_COUNT];     /* by image; 0 where not used so */
     GLuint samplers[GN_GL_SAMPLER_KINDS];
     float (*uv)[GN_GL_UV_COUNT][4]; /* different sets of transforms and factors */
     uint32_t *material_uv;          /* by material: index into uv */
@@ -94,7 +112,7 @@ void gn_gl_vertices_bind(struct gn_gl *gl, uint32_t attributes, uint32_t first_i
 /* Uploads about so many bytes; true: all textures are complete. */
 bool gn_gl_textures_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_textures_finish(struct gn_gl *gl);
-void gn_gl_texture_bind(struct gn_gl *gl, uint32_t slot, const struct gn_texture_ref *ref);
+void gn_gl_texture_bind(struct gn_gl *gl, const struct gn_material *material, uint32_t slot);
 void gn_gl_slide_bind(struct gn_gl *gl, uint32_t slide, uint32_t texture);
 
 /* levels.c: for a picture with levels from its file, the texture of the open picture; false: it

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "scene/pose.h"
+
 enum { PARTS = 3 };
 static const char *const semantics[PARTS] = {"POSITION", "NORMAL", "TANGENT"};
 
@@ -43,8 +45,8 @@ static void make_face_deltas(const struct gn_scene *scene, const struct gn_geome
         glm_vec3_sub(corner[1], corner[0], u);
         glm_vec3_sub(corner[2], corner[0], v);
         glm_vec3_cross(u, v, n);
+        gn_unit(n);
         if (!(glm_vec3_norm(n) > 0)) continue;
-        glm_vec3_scale(n, 1 / glm_vec3_norm(n), n);
         for (int k = 0; k < 3; k++) {
             const uint32_t vertex = index[t + (uint32_t)k];
             glm_vec3_sub(n, scene->buffers.normals + 3 * (size_t)vertex,

@@ -76,9 +76,10 @@ static double area_of(const struct gn_gltf *g, const struct gn_pose *pose, uint3
     vec3 n;
     gn_cofactor(pose->items[i].world_from_item, cofactor);
     glm_mat3_mulv(cofactor, (float *)geometry->plane, n);
-    double stretch = (double)glm_vec3_norm(n);
+    const double stretch = sqrt((double)n[0] * (double)n[0] + (double)n[1] * (double)n[1] +
+                                (double)n[2] * (double)n[2]);
     double area = g->primitives.shapes[item->geometry].area * stretch;
-    if (stretch > 0) glm_vec3_scale(n, (float)(1 / stretch), n);
+    gn_unit(n);
     double box_area = fabs((double)n[0]) * s[1] * s[2] + fabs((double)n[1]) * s[2] * s[0] +
                       fabs((double)n[2]) * s[0] * s[1]; /* projected along n */
     return area < LEAST_SHARE * box_area ? 0 : area;

@@ -49,8 +49,8 @@ static void pose_item(struct gn_pose *pose, uint32_t i) {
         const bool mirrored = gn_cofactor(out->world_from_item, cofactor) < 0;
         if (item->skin < 0) out->mirrored = mirrored;
         out->box_ws = gn_box_transform(out->world_from_item, &out->box);
-        float area =
-            glm_vec3_norm(cofactor[0]) + glm_vec3_norm(cofactor[1]) + glm_vec3_norm(cofactor[2]);
+        float area = 0; /* no squares: those of 1e-23 are 0 */
+        for (int k = 0; k < 9; k++) area += fabsf(cofactor[k / 3][k % 3]);
         out->visible = area > 0;
         for (int k = 0; k < 3; k++)
             out->visible &= fabsf(out->box_ws.min[k]) < LIMIT && fabsf(out->box_ws.max[k]) < LIMIT;

@@ -21,6 +21,7 @@ struct gn_box { /* axis-aligned; empty when min > max */
     vec3 min, max;
 };
 
+enum { GN_CUTOFFS_MAX = 4 };
 /* Pixels of a decoded picture. Row 0 is the top row, which glTF puts at v = 0. */
 struct gn_image {
     uint32_t width_px, height_px;
@@ -30,9 +31,12 @@ struct gn_image {
         *levels; /* of KTX2, for the GPU as they are, the largest first; NULL: rgba alone */
     enum gn_packing packing; /* of them */
     uint32_t level_count;
-    bool has_alpha;         /* some texel is not opaque */
-    bool as_data, as_color; /* materials and lights read it so: a texture of each format */
-    bool mipmaps;           /* of these */
+    bool has_alpha;                /* some texel is not opaque */
+    bool as_data, as_color;        /* materials and lights read it so: a texture of each format */
+    bool mipmaps;                  /* of these */
+    float cutoffs[GN_CUTOFFS_MAX]; /* of masked materials, as its alpha must reach them: a texture
+                                      for each, unless it has levels of its own */
+    uint32_t cutoff_count;
 };
 
 enum gn_wrap { GN_WRAP_REPEAT, GN_WRAP_CLAMP, GN_WRAP_MIRROR };
@@ -429,6 +433,10 @@ void gn_scene_destroy(struct gn_scene *scene);
  * that is enough. */
 uint64_t gn_scene_image_bytes(const struct gn_image *image);
 uint64_t gn_scene_index_bytes(const struct gn_scene *scene);
+/* The cutoff of its picture by which a masked material reads this slot, of a texture whose levels
+ * are at or over it as much as the picture is; -1: it reads the picture as it is. */
+int gn_scene_find_cutoff(const struct gn_scene *scene, const struct gn_material *material,
+                         enum gn_texture_slot slot);
 /* And of its targets, and of the texels of poses. */
 uint64_t gn_scene_deformation_bytes(const struct gn_scene *scene);
 /* Size of a vertex in GPU memory. */
