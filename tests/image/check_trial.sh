@@ -130,5 +130,20 @@ cp white.gltf plain/blue.gltf
 start
 shows white 'another file'
 stop
+# ---- the socket of another one ---------------------------------------------------------------------------
+base no
+start
+shows red
+first=$kiosk
+cp blue.gltf red.gltf
+show -c base.ini
+for _ in $(seq 200); do grep -q 'in use by another kiosk' kiosk.err && break || sleep 0.1; done
+grep -q 'in use by another kiosk' kiosk.err || complain "two of one socket: $(cat kiosk.err)"
+kill "$first"
+wait "$first"
+shows blue 'the socket is free, and it is not tried again'
+says 'problem: -' 'the socket is there'
+says 'config.error: -' 'the socket is there'
+stop
 echo 'a crash at each start: two starts, then what was there before'
 exit $bad

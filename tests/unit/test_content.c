@@ -99,6 +99,23 @@ static void test_one_scene_takes_the_place_of_the_files(void **state) {
     gn_options_finish(&options);
 }
 
+static void test_folders_with_such_names_are_neither(void **state) {
+    char path[80];
+    (void)state;
+    write_file("base.ini", machine);
+    snprintf(path, sizeof path, "%s/a.glb", folder);
+    assert_int_equal(mkdir(path, 0755), 0);
+    snprintf(path, sizeof path, "%s/kiosk.ini", folder);
+    assert_int_equal(mkdir(path, 0755), 0);
+    assert_true(read_with(NULL));
+    assert_null(options.content);
+    gn_options_finish(&options);
+    write_file("content/b.glb", "x");
+    assert_true(read_with(NULL));
+    check_path(options.settings->scene.path, "content/b.glb");
+    gn_options_finish(&options);
+}
+
 static void test_an_empty_folder_changes_nothing(void **state) {
     (void)state;
     write_file("base.ini", machine);
@@ -267,6 +284,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_a_kiosk_ini_is_laid_over_the_machines, make_folders),
         cmocka_unit_test_setup(test_one_scene_takes_the_place_of_the_files, make_folders),
+        cmocka_unit_test_setup(test_folders_with_such_names_are_neither, make_folders),
         cmocka_unit_test_setup(test_an_empty_folder_changes_nothing, make_folders),
         cmocka_unit_test_setup(test_the_flag_beats_the_file, make_folders),
         cmocka_unit_test_setup(test_a_bad_one_leaves_the_machines_and_says_why, make_folders),
