@@ -130,8 +130,9 @@ static bool take_stick(const struct gn_options *o, struct gn_take *t, const char
         puts("already shown");
         break;
     case GN_TAKE_BACK:
-        add_line(&report, "This folder was shown until somebody went back to the version before; "
-                          "it is not taken again unless something in it changes.");
+        add_line(&report, "This folder was shown until somebody went back to the version before, "
+                          "or a kiosk did, since no picture came; it is not taken again unless "
+                          "something in it changes.");
         puts("not taken again: gnomon take --rollback went back from it, and goes to it again");
         break;
     }

@@ -43,8 +43,7 @@ static void check_places(const struct gn_options *o, const char *folder, struct 
         const struct {
             const char *path, *label;
         } files[] = {{s->render.environment, gn_settings_label(s, render.environment)},
-                     {s->render.font, gn_settings_label(s, render.font)},
-                     {s->render.shaders, gn_settings_label(s, render.shaders)}};
+                     {s->render.font, gn_settings_label(s, render.font)}};
         for (int k = 0; k < s->scene.list.count; k++)
             check_place(s->scene.list.paths[k], gn_settings_label(s, scene.path), folder, errors);
         for (size_t k = 0; k < sizeof files / sizeof *files; k++)
@@ -70,8 +69,8 @@ static void check_copy(void *shared, const void *argument) {
         gn_errors_take(&out->errors, &err);
         return;
     }
-    out->warnings = (struct gn_warnings){0}; /* the check's come again */
     if (options.config_error) {
+        out->warnings = (struct gn_warnings){0}; /* they say the same */
         gn_fail(&err, "%s", options.config_error);
         gn_errors_take(&out->errors, &err);
         return;

@@ -96,6 +96,7 @@ struct gn_part {
 #define GN_PART_TABLE(X)                                                                           \
     X(kiosk)                                                                                       \
     X(state)                                                                                       \
+    X(trial)                                                                                       \
     X(scene)                                                                                       \
     X(schedule)                                                                                    \
     X(television)                                                                                  \

@@ -4,6 +4,8 @@
 
 enum gn_problem {
     GN_PROBLEM_START,      /* of this start, for good */
+    GN_PROBLEM_CONTROL,    /* no control socket; until it opens */
+    GN_PROBLEM_TRIAL,      /* what was new is not shown; until something new is */
     GN_PROBLEM_CONFIG,     /* until a reload succeeds */
     GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is */
     GN_PROBLEM_MODE,       /* until that mode is shown, or a reload */

@@ -104,8 +104,8 @@ bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64
         snprintf(line, sizeof line, "STATUS=%s", status);
         notify(s, line);
     }
-    if (!s->ready && (shown > 0 || sleeps)) notify(s, "READY=1");
-    s->ready |= shown > 0 || sleeps;
+    if (!s->ready) notify(s, "READY=1");
+    s->ready = true;
     if (s->every_ns == 0 || now_ns < s->next_ns) return false;
     if (shown == s->shown && !sleeps) return true;
     notify(s, "WATCHDOG=1");

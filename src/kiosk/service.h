@@ -1,8 +1,8 @@
-/* The systemd protocol (sd_notify(3)): a datagram each, to $NOTIFY_SOCKET. READY=1 with the first
- * completed flip, or as soon as the screen's status says what it waits for. WATCHDOG=1 every
- * quarter of $WATCHDOG_USEC, only if a flip has completed since the last one or the screen sleeps:
- * it is switched off, or waits for a card, a monitor or a console. So a flip, GPU or loop that
- * hangs ends with a restart, and a still picture is drawn again in time to feed the watchdog.
+/* The systemd protocol (sd_notify(3)): a datagram each, to $NOTIFY_SOCKET. READY=1 with the
+ * first step, before the first frame: however long that takes, it is the watchdog's. WATCHDOG=1
+ * every quarter of $WATCHDOG_USEC, only if a flip has completed since the last one or the screen
+ * sleeps: it is switched off, or waits for a card, a monitor or a console. So a flip, GPU or loop
+ * that hangs ends with a restart, and a still picture is drawn again in time to feed the watchdog.
  * Without $NOTIFY_SOCKET nothing of that is done.
  *
  * Where there is a supervisor, or stderr is systemd's journal ($JOURNAL_STREAM), a line on stderr

@@ -193,7 +193,7 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
 
 /* The file; "" where there is none. */
 static bool load_config(struct gn_options *options, const char *path, struct gn_err *err) {
-    return !path[0] || gn_config_load(options, path, err);
+    return !path[0] || gn_config_load(options, path, NULL, err);
 }
 
 static bool read_lesson(struct args *args, struct gn_err *err) {
@@ -220,8 +220,9 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     struct gn_err why = {0};
     if (check) options->errors = gn_arena_alloc(&options->arena, 1, sizeof *options->errors);
     const bool is_read = load_config(options, path, &why);
-    if (is_read && (check || !row->lays_content ||
-                    gn_options_lay_content(options, content ? content->text : NULL, &why)))
+    if (is_read &&
+        (check || !row->lays_content ||
+         gn_options_lay_content(options, content ? content->text : NULL, warnings, &why)))
         return true;
     const bool is_kiosk = row->config == GN_CONFIG_KIOSK && !check;
     const bool does_without =

@@ -7,9 +7,16 @@
 #include "options/value.h"
 #include "take/shown.h"
 
+/* Beside those of the sections that are, .. */
 static const size_t of_machine[] = {
-    offsetof(struct gn_settings, kiosk.content), offsetof(struct gn_settings, kiosk.socket),
-    offsetof(struct gn_settings, kiosk.state), offsetof(struct gn_settings, kiosk.screenshots)};
+    offsetof(struct gn_settings, kiosk.content),  offsetof(struct gn_settings, kiosk.socket),
+    offsetof(struct gn_settings, kiosk.state),    offsetof(struct gn_settings, kiosk.screenshots),
+    offsetof(struct gn_settings, render.size),    offsetof(struct gn_settings, render.without),
+    offsetof(struct gn_settings, render.shaders),
+};
+/* .. without these. */
+static const size_t of_both[] = {offsetof(struct gn_settings, display.rotate_deg),
+                                 offsetof(struct gn_settings, display.pixel_shift_px)};
 /* They are of other scenes. */
 static const size_t of_scene[] = {
     offsetof(struct gn_settings, scene.path), offsetof(struct gn_settings, scene.camera),
@@ -25,11 +32,30 @@ static bool is_of_content(const struct gn_option_row *row) {
     return row->section && gn_section_find(row->section, false)->of_content;
 }
 
-static void copy_row(struct gn_settings *to, const struct gn_settings *from, int i) {
-    const struct gn_option_row *row = &gn_option_rows[i];
-    memcpy((char *)to + row->offset, gn_settings_value(from, row), gn_value_size(row->kind));
-    to->source[i] = from->source[i];
-    to->label[i] = from->label[i];
+/* A wrong value of these could take the screen, the GPU or the hours from the machine. */
+static bool is_of_machine(const struct gn_option_row *row) {
+    return is_among(of_machine, sizeof of_machine, row) ||
+           (row->section && gn_section_find(row->section, false)->of_machine &&
+            !is_among(of_both, sizeof of_both, row));
+}
+
+/* What is no limit, its parser says. */
+static bool raises_limit(const struct gn_options *o, const char *text) {
+    const char *equals = strchr(text, '=');
+    int64_t value;
+    return equals && gn_parse_int(equals + 1, &value) && value > 0 &&
+           gn_scene_limits_raise(&o->all[0].render.limits.all, text, (size_t)(equals - text),
+                                 (uint64_t)value);
+}
+
+static const char *why_not(const struct gn_options *o, const struct gn_option_row *row,
+                           const struct gn_ini_line *line) {
+    if (row >= gn_option_rows && row < gn_option_rows + GN_OPTION_COUNT && is_of_machine(row))
+        return "it is the machine's own";
+    if (row->kind != GN_KIND_LIMIT) return NULL;
+    /* a mode's takes the place of all of [render] */
+    if (line->name) return "content lowers limits in [render] only";
+    return raises_limit(o, line->value) ? "content may lower limits, and not raise them" : NULL;
 }
 
 /* To its default. */
@@ -71,9 +97,10 @@ static bool check_buttons(const struct gn_options *o, struct gn_err *err) {
     return true;
 }
 
-static bool lay_ini(struct gn_options *o, const char *path, struct gn_err *err) {
+static bool lay_ini(struct gn_options *o, const char *path, struct gn_warnings *warnings,
+                    struct gn_err *err) {
+    const struct gn_config_over over = {.why_not = why_not, .warnings = warnings};
     struct gn_settings *all = &o->all[0];
-    const struct gn_settings before = *all;
     for (int i = 0; i < GN_OPTION_COUNT; i++)
         if (is_of_content(&gn_option_rows[i])) reset_row(o, i);
     all->lights = NULL;
@@ -81,17 +108,15 @@ static bool lay_ini(struct gn_options *o, const char *path, struct gn_err *err) 
     o->base_path = o->config_path;
     o->modes = NULL;
     o->mode_count = 0;
-    if (!gn_config_load(o, path, err)) return false;
-    for (int i = 0; i < GN_OPTION_COUNT; i++)
-        if (is_among(of_machine, sizeof of_machine, &gn_option_rows[i])) copy_row(all, &before, i);
-    return check_buttons(o, err);
+    return gn_config_load(o, path, &over, err) && check_buttons(o, err);
 }
 
-bool gn_options_lay_content(struct gn_options *o, const char *folder, struct gn_err *err) {
+bool gn_options_lay_content(struct gn_options *o, const char *folder, struct gn_warnings *warnings,
+                            struct gn_err *err) {
     const char *own = folder ? folder : o->all[0].kiosk.content;
     struct gn_take_shown shown;
     if (!own || strcmp(own, "no") == 0 || !gn_take_shown(own, &shown)) return true;
     o->content = gn_arena_strdup(&o->arena, shown.folder);
     if (!o->content) return gn_fail(err, "no memory left");
-    return shown.ini[0] ? lay_ini(o, shown.ini, err) : lay_scene(o, shown.scene, err);
+    return shown.ini[0] ? lay_ini(o, shown.ini, warnings, err) : lay_scene(o, shown.scene, err);
 }

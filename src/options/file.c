@@ -31,6 +31,7 @@ bool gn_config_find(char *path, size_t size) {
 struct load {
     struct gn_options *options;
     const char *path;
+    const struct gn_config_over *over;    /* NULL: it is the machine's own */
     const struct gn_section_row *section; /* that is read */
     struct gn_section *one;               /* of many: which; else NULL */
     struct gn_sections many[GN_SECTION_COUNT];
@@ -158,6 +159,11 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     if (!line->key) return open_section(load, line, err);
     const struct gn_option_row *row = gn_section_find_key(load->section, line->key);
     if (!row) return fail_key(line, load->section, err);
+    const char *left_out = load->over ? load->over->why_not(load->options, row, line) : NULL;
+    if (left_out) {
+        gn_warn(load->over->warnings, "%s: %s is left out: %s", line->where, line->key, left_out);
+        return true;
+    }
     if (line_before(load, row))
         return gn_fail_usage(err, "%s: %s is set already, in line %d", line->where, line->key,
                              line_before(load, row));
@@ -176,9 +182,9 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
 }
 
-bool gn_config_load_text(struct gn_options *options, const char *path, const char *text,
-                         size_t size, struct gn_err *err) {
-    struct load load = {.options = options, .path = path};
+static bool load_text(struct load load, const char *text, size_t size, struct gn_err *err) {
+    struct gn_options *options = load.options;
+    const char *path = load.path;
     options->config_path = gn_arena_strdup(&options->arena, path);
     if (!options->config_path) return gn_fail(err, "%s: no memory left", path);
     struct gn_errors *errors = options->errors;
@@ -191,10 +197,17 @@ bool gn_config_load_text(struct gn_options *options, const char *path, const cha
     return true;
 }
 
-bool gn_config_load(struct gn_options *options, const char *path, struct gn_err *err) {
+bool gn_config_load_text(struct gn_options *options, const char *path, const char *text,
+                         size_t size, struct gn_err *err) {
+    return load_text((struct load){.options = options, .path = path}, text, size, err);
+}
+
+bool gn_config_load(struct gn_options *options, const char *path, const struct gn_config_over *over,
+                    struct gn_err *err) {
     struct gn_bytes bytes;
     if (!gn_file_read(path, FILE_MAX, &bytes, err)) return false;
-    const bool ok = gn_config_load_text(options, path, (const char *)bytes.data, bytes.size, err);
+    const bool ok = load_text((struct load){.options = options, .path = path, .over = over},
+                              (const char *)bytes.data, bytes.size, err);
     gn_bytes_finish(&bytes);
     return ok;
 }

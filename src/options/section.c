@@ -26,7 +26,7 @@ static bool take_lights(struct gn_options *options, const struct gn_sections *se
 
 /* clang-format off */
 const struct gn_section_row gn_section_rows[GN_SECTION_COUNT] = {
-    {.title = "display", .heading = "display", .place = 5,
+    {.title = "display", .heading = "display", .place = 5, .of_machine = true,
      .about = "The screen: card, connector, mode.."},
     {.title = "scene", .heading = "scene", .place = 1, .of_content = true, .of_modes = true,
      .about = "What is shown."},
@@ -38,7 +38,7 @@ const struct gn_section_row gn_section_rows[GN_SECTION_COUNT] = {
      .about = "The light that a scene without any gets. [render] and modes take these keys, too, by the whole names of their options: light_azimuth."},
     {.title = "kiosk", .heading = "kiosk", .place = 6,
      .about = "What gnomon show does by itself."},
-    {.title = "schedule", .heading = "hours", .place = 7,
+    {.title = "schedule", .heading = "hours", .place = 7, .of_machine = true,
      .about = "When the screen is on, by local time."},
     {.title = "mode \"NAME\"", .has = is_of_mode, .takes_whole_names = true, .take = take_modes,
      .about = "Any number of modes: keys of [scene], [render], [camera] and [light] that differ in it. The first one is shown at the start; without any, each technique is a mode."},

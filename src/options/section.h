@@ -18,6 +18,7 @@ struct gn_section_row {
     const char *heading; /* of its options in --help; NULL: it has none */
     int place;           /* of that among the others, from 1 */
     bool of_content;     /* of a kiosk.ini that gnomon take brings, not of the file below it */
+    bool of_machine;     /* never of that one, but for what content.c excepts */
     bool of_modes;       /* its keys are modes', too */
     bool by_whole_names; /* its keys are also whole names of options, light_azimuth, there and.. */
     bool takes_whole_names; /* ..here */

@@ -322,13 +322,17 @@ static bool parse_limit(struct gn_kind_input *in, void *field) {
     struct gn_limits *limits = field;
     const char *equals = strchr(in->text, '=');
     int64_t value;
-    if (limits->count == GN_LIMITS_MAX || !equals || equals == in->text) return false;
+    if (!equals || equals == in->text) return false;
     if (!gn_parse_int(equals + 1, &value) || !is_in_range(in->row, (double)value)) return false;
     char *name = gn_arena_strdup(in->arena, in->text);
     if (!name) return gn_fail(in->err, "no memory left");
     name[equals - in->text] = '\0';
     if (!gn_scene_limits_set(&limits->all, name, (uint64_t)value, in->err)) return false;
-    limits->items[limits->count++] = (struct gn_limit){name, value};
+    int at = 0; /* a name is there once */
+    while (at < limits->count && strcmp(limits->items[at].name, name) != 0) at++;
+    if (at == GN_LIMITS_MAX) return false;
+    limits->items[at] = (struct gn_limit){name, value};
+    if (at == limits->count) limits->count++;
     return true;
 }
 

@@ -62,6 +62,15 @@ bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint6
     return gn_fail_usage(err, "unknown limit '%s'; limits are:%s", name, names);
 }
 
+bool gn_scene_limits_raise(const struct gn_scene_limits *limits, const char *name, size_t length,
+                           uint64_t value) {
+    struct gn_scene_limits now = gn_scene_limits_or_default(limits);
+    for (size_t i = 0; i < ROW_COUNT; i++)
+        if (strncmp(ROWS[i].name, name, length) == 0 && !ROWS[i].name[length])
+            return value > *limit_field(&now, &ROWS[i]);
+    return false;
+}
+
 struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits) {
     struct gn_scene_limits result = limits ? *limits : (struct gn_scene_limits){0};
     for (size_t i = 0; i < ROW_COUNT; i++) {

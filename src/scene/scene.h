@@ -403,6 +403,9 @@ struct gn_scene_limits {
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,
                          struct gn_err *err);
+/* Whether it is over what holds now, a default included; false of what is no limit's name. */
+bool gn_scene_limits_raise(const struct gn_scene_limits *limits, const char *name, size_t length,
+                           uint64_t value);
 /* The limits with defaults filled in; limits may be NULL. */
 struct gn_scene_limits gn_scene_limits_or_default(const struct gn_scene_limits *limits);
 /* "file_mb=512, memory_mb=1024, ..": the limits with their defaults filled in. NULL: all defaults

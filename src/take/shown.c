@@ -1,9 +1,11 @@
 #include "take/shown.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/model.h"
@@ -20,6 +22,11 @@ static bool put_path(char out[PATH_MAX], const char *folder, const char *name) {
     return false;
 }
 
+static bool is_file(int folder, const char *name) {
+    struct stat info;
+    return fstatat(folder, name, &info, 0) == 0 && S_ISREG(info.st_mode);
+}
+
 /* The first by name; `gnomon take` lets only one in. */
 static bool find_scene(const char *folder, char out[PATH_MAX]) {
     char best[NAME_MAX + 1] = "";
@@ -27,7 +34,7 @@ static bool find_scene(const char *folder, char out[PATH_MAX]) {
     const struct dirent *entry;
     while (stream && (entry = readdir(stream)))
         if (entry->d_name[0] != '.' && gn_take_is_scene(entry->d_name) &&
-            (!best[0] || strcmp(entry->d_name, best) < 0))
+            (!best[0] || strcmp(entry->d_name, best) < 0) && is_file(dirfd(stream), entry->d_name))
             snprintf(best, sizeof best, "%s", entry->d_name);
     if (stream) closedir(stream);
     return best[0] && put_path(out, folder, best);
@@ -39,5 +46,7 @@ bool gn_take_shown(const char *folder, struct gn_take_shown *out) {
     /* a folder of that name may be a version's own: copies have no links */
     const bool is_kept = put_path(link, folder, GN_TAKE_CURRENT) && readlink(link, target, 1) > 0;
     if (!realpath(is_kept ? link : folder, out->folder)) return false;
-    return put_path(out->ini, out->folder, GN_TAKE_INI) || find_scene(out->folder, out->scene);
+    if (put_path(out->ini, out->folder, GN_TAKE_INI) && is_file(AT_FDCWD, out->ini)) return true;
+    out->ini[0] = '\0';
+    return find_scene(out->folder, out->scene);
 }

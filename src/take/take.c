@@ -271,8 +271,19 @@ bool gn_take_back(struct gn_take *t, struct gn_err *err) {
         return gn_fail(err, "there is no version before this one");
     if (files->exchange(files->user, t->folder, GN_TAKE_CURRENT, previous) == 0) {
         if (files->fsync(files->user, t->folder) != 0) return fail_switch(t, err);
-    } else if (!turn_link(t, GN_TAKE_CURRENT, t->before) || !turn_link(t, previous, shown)) {
-        return fail_switch(t, err); /* the file system cannot exchange two names */
+    } else if (!turn_link(t, GN_TAKE_CURRENT, t->before) ||
+               (shown[0] && !turn_link(t, previous, shown))) {
+        return fail_switch(
+            t, err); /* nothing is shown, or the file system cannot exchange two names */
     }
+    return read_links(t, err);
+}
+
+bool gn_take_give_up(struct gn_take *t, struct gn_err *err) {
+    if (t->before[0] && number_of(t->before) < number_of(t->shown)) return gn_take_back(t, err);
+    if ((!t->before[0] && !turn_link(t, previous, t->shown)) ||
+        t->files->unlink(t->files->user, t->folder, GN_TAKE_CURRENT, 0) != 0 ||
+        t->files->fsync(t->files->user, t->folder) != 0)
+        return fail_switch(t, err);
     return read_links(t, err);
 }

@@ -66,5 +66,7 @@ bool gn_take_keep(struct gn_take *take, struct gn_err *err);
 void gn_take_drop(struct gn_take *take); /* removes the copy */
 /* Shows what was shown before; the next one goes forward again. */
 bool gn_take_back(struct gn_take *take, struct gn_err *err);
+/* What is shown cannot be: the same, if that goes to an older one, else nothing is shown. */
+bool gn_take_give_up(struct gn_take *take, struct gn_err *err);
 
 #endif

@@ -75,7 +75,7 @@ static void a_spoilt_file_is_taken_or_names_its_line(void **state) {
         int line = 0;
         write_file(text, size);
         gn_options_init(&options, GN_COMMAND_SHOW);
-        if (gn_config_load(&options, path, &err)) {
+        if (gn_config_load(&options, path, NULL, &err)) {
             gn_options_resolve(&options);
             taken++;
         } else {

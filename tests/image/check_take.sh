@@ -142,6 +142,21 @@ grep -q 'gnomon/parts/zeros: cannot write its copy: ' take.err || complain "a fu
 [ "$(ls content/versions | wc -l)" = 2 ] || complain "a full disk: left: $(ls content/versions)"
 within blue
 
+# what is the machine's does not come with a stick
+cp blue.gltf $on/parts/b.gltf
+rm -f $on/*.gltf $on/parts/zeros
+printf '%s\n' '[scene]' 'file = parts/b.gltf' '[display]' 'backend = window' 'card = none' 'modeline = 1' '[render]' 'shaders = parts' \
+    'limit = memory_mb=900000' 'limit = nodes=1' 'without = all' '[schedule]' 'on = none' 'cec_device = /dev/null' > $on/KIOSK.INI
+took blue
+says "config.path: .*/versions/3-[0-9a-f]*/kiosk.ini"
+for key in '4: backend' '5: card' '6: modeline' '8: shaders' '9: limit' '11: without' '13: on' '14: cec_device'; do
+    status | grep -q "^- warning: gnomon/kiosk.ini:$key is left out: " || complain "the report does not name $key: $(status)"
+done
+ctl get limit | grep -q '^value: nodes=1$' || complain "limits: $(ctl get limit)"
+ctl get backend | grep -q 'value: egl' || complain "a stick chose the display: $(ctl get backend)"
+rm $on/KIOSK.INI
+cp red.gltf $on/
+
 # a report that cannot be written is no error; the mount of a read-only stick, where this user may
 rm -r $on/parts
 if mkdir fixed && unshare -m sh -c 'mount --bind stick fixed && mount -o remount,bind,ro fixed' 2> err; then

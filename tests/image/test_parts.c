@@ -26,6 +26,7 @@ static const struct trial {
 } trials[GN_PART_COUNT] = {
     [GN_PART_kiosk] = {"mode \"b\"", "shadow = none", NULL},
     [GN_PART_state] = {.why = "[kiosk] state counts from the next start on"},
+    [GN_PART_trial] = {.why = "it has no settings"},
     [GN_PART_scene] = {.why = "it has no settings"},
     [GN_PART_schedule] = {"schedule", "dim = 00:00-24:00", NULL},
     [GN_PART_television] = {"schedule", "off = cec\ncec_device = /dev/null", NULL},

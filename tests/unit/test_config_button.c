@@ -18,7 +18,7 @@ static bool load(const char *text) {
     gn_options_init(&options, GN_COMMAND_SHOW);
     err = (struct gn_err){0};
     assert_true(gn_file_write(path, text, strlen(text), &err));
-    return gn_config_load(&options, path, &err);
+    return gn_config_load(&options, path, NULL, &err);
 }
 
 static const struct gn_button_config *button(int i) {
@@ -210,7 +210,7 @@ static void want_of_memory_is_said(void **state) {
         err = (struct gn_err){0};
         assert_true(gn_file_write(path, text, strlen(text), &err));
         gn_alloc_fail_at(n);
-        const bool ok = gn_config_load(&options, path, &err);
+        const bool ok = gn_config_load(&options, path, NULL, &err);
         gn_alloc_fail_at(0);
         if (ok) return;
         assert_non_null(strstr(err.text, "memory"));

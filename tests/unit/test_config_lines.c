@@ -189,7 +189,7 @@ static void each_line_that_is_broken_is_named(void **state) {
     write_broken(0, "");
     gn_options_finish(&options);
     gn_options_init(&options, GN_COMMAND_SHOW);
-    if (!gn_config_load(&options, path, &err)) fail_msg("the good one: %s", err.text);
+    if (!gn_config_load(&options, path, NULL, &err)) fail_msg("the good one: %s", err.text);
     while (line_of(++number, line))
         if (line[0] == ';')
             break_line(number, "no comment", "no comment");

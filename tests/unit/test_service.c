@@ -64,7 +64,7 @@ static void open_it(struct gn_service *service) {
     if (!gn_service_open(service, loop, 100 * S, &err)) fail_msg("%s", err.text);
 }
 
-static void test_ready_with_the_first_flip(void **state) {
+static void test_ready_before_the_first_frame(void **state) {
     (void)state;
     struct gn_service service;
     struct gn_screen screen = {.may_draw = true};
@@ -72,11 +72,11 @@ static void test_ready_with_the_first_flip(void **state) {
     assert_null(getenv("NOTIFY_SOCKET")); /* not for those that it starts */
     assert_null(getenv("WATCHDOG_USEC"));
     assert_false(gn_service_step(&service, &screen, 101 * S));
-    assert_string_equal(hear(), "");
+    assert_string_equal(hear(), "READY=1");
     screen.counts.shown = 1;
     snprintf(screen.what, sizeof screen.what, "HDMI-A-1 1920x1080@60.00 atomic");
     gn_service_step(&service, &screen, 102 * S);
-    assert_string_equal(hear(), "STATUS=HDMI-A-1 1920x1080@60.00 atomic READY=1");
+    assert_string_equal(hear(), "STATUS=HDMI-A-1 1920x1080@60.00 atomic");
     gn_service_step(&service, &screen, 103 * S);
     assert_string_equal(hear(), "");
     gn_service_close(&service);
@@ -369,7 +369,7 @@ static void test_so_does_waiting_for_a_card(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_ready_with_the_first_flip, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_ready_before_the_first_frame, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_ready_when_it_waits_for_a_monitor, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_fed_by_flips_alone, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_fed_while_it_sleeps, set_up, tear_down),

@@ -11,11 +11,13 @@
 #include "kiosk/screenshot.h"
 
 static const int64_t SCREENSHOT_NS = 5 * GN_NS_PER_S; /* limit until its frame comes */
+static const int64_t AGAIN_NS = 5 * GN_NS_PER_S;      /* until a socket is tried again */
 
 struct gn_show_control { /* the part's memory */
     const struct gn_part_host *host;
     struct gn_control *control;
     struct gn_timer screenshot_late;
+    struct gn_timer again;                        /* while there is no socket */
     const struct gn_request *screenshot, *reload; /* to be answered later; NULL: none */
     char dark[256];                  /* of the screenshot: why it is a text; "": it is a frame */
     struct gn_control_counts counts; /* for the status */
@@ -31,7 +33,28 @@ static void close_all(struct gn_show *s, struct gn_show_control *c) {
     gn_screenshot_destroy(s->screenshot);
     s->screenshot = NULL;
     gn_control_close(c->control);
+    c->control = NULL;
 }
+
+/* The caption says so, too, where the configuration names a socket; once for each reason. */
+static void report_closed(struct gn_show *s, bool named, const char *why) {
+    if (strcmp(s->problems.of[GN_PROBLEM_CONTROL], why) == 0) return;
+    if (named)
+        gn_show_report_error(s, GN_PROBLEM_CONTROL, why);
+    else
+        gn_problem_report(&s->problems, GN_PROBLEM_CONTROL, why);
+}
+
+static void report_opened(struct gn_show *s) {
+    const char *shown = s->config.options->config_error;
+    if (shown && strcmp(shown, s->problems.of[GN_PROBLEM_CONTROL]) == 0)
+        s->config.options->config_error = NULL;
+    gn_problem_cure(&s->problems, GN_PROBLEM_CONTROL);
+    s->screen.changed = true;
+}
+
+/* Descriptors, the folder or another kiosk's lock may be what is missing, and come. */
+static void open_again(void *part, int64_t now_ns);
 
 static void open_control(void *part) {
     struct gn_show_control *c = part;
@@ -48,18 +71,27 @@ static void open_control(void *part) {
     c->control = s->screenshot ? gn_control_open(named ? named : path, s->loop, &err) : NULL;
     if (c->control) {
         s->control = c;
+        if (s->problems.of[GN_PROBLEM_CONTROL][0]) report_opened(s);
         return;
     }
-    if (named)
-        gn_show_report_error(s, GN_PROBLEM_START, err.text);
-    else
-        gn_problem_report(&s->problems, GN_PROBLEM_START, err.text);
+    report_closed(s, named, err.text);
     close_all(s, c);
+    c->again = (struct gn_timer){
+        .due_ns = gn_loop_now_ns(s->loop) + AGAIN_NS, .call = open_again, .user = c};
+    gn_loop_add_timer(s->loop, &c->again);
+}
+
+static void open_again(void *part, int64_t now_ns) {
+    struct gn_show_control *c = part;
+    (void)now_ns;
+    gn_loop_remove_timer(&c->again);
+    open_control(c);
 }
 
 static void close_control(void *part) {
     struct gn_show_control *c = part;
     struct gn_show *s = c->host->show;
+    gn_loop_remove_timer(&c->again);
     if (s->control) close_all(s, c);
     s->control = NULL;
 }
