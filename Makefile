@@ -382,7 +382,7 @@ lint-changed: syntax
 	+@$(SUB) syntax $(wildcard $(call stamps,tidy,$(TIDY))) $$(tests/changed.sh $(B)/obj $(TIDY) | sed 's,\(.*\)c$$,$(B)/obj/\1tidy,')
 $(B)/obj/%.syntax: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
 	@mkdir -p $(@D) && echo "clang $<"
-	$(Q)$(COMPILE) -Werror -Itests -Iassets -fsyntax-only -MF $@.d -MT $@ $< && touch $@
+	$(Q)$(subst -I/usr/,-isystem /usr/,$(COMPILE)) -Werror -Wreserved-identifier -Wreserved-macro-identifier -Itests -Iassets -fsyntax-only -MF $@.d -MT $@ $< && touch $@
 $(B)/obj/%.tidy: $(B)/obj/%.syntax .clang-tidy
 	@echo "tidy $*.c"
 	$(Q)$(call CLANG_TIDY,$*.c) 2> $@.log || { cat $@.log; false; } && touch $@
