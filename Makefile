@@ -319,10 +319,10 @@ build_release = $(SUB) WERROR=1 CONFIG=release PROGRAMS='$(filter $(O)/release/t
 build_asan    = $(SUB) WERROR=1 CONFIG=asan PROGRAMS='$(filter $(O)/asan/tests/%,$(RUNS))' programs
 build_service = $(build_release) && $(SUB) deb
 for_arm64     = { ! command -v aarch64-linux-gnu-gcc > /dev/null || ! root=$$($(1) tests/board/sysroot.sh arm64) || \
-                $(SUB) CROSS=aarch64-linux-gnu SYSROOT=$$root $(2); }
+                $(SUB) CFLAGS=-g0 CROSS=aarch64-linux-gnu SYSROOT=$$root $(2); }
 build_arm64   = $(call for_arm64,,needs-board)
 build_gpus    = $(call for_arm64,FOR=gpus,WERROR=1 CONFIG=debug needs-gpus)
-build_gpiod2  = { ! root=$$(SUITE=trixie tests/board/sysroot.sh) || $(SUB) WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root needs-gpiod2; }
+build_gpiod2  = { ! root=$$(SUITE=trixie tests/board/sysroot.sh) || $(SUB) CFLAGS=-g0 WERROR=1 CROSS=$$($(CC) -dumpmachine) SYSROOT=$$root needs-gpiod2; }
 needs-board: $(BOARD_NEEDS)
 needs-gpus: $(GPUS_NEEDS)
 needs-gpiod2: $(GPIOD2_NEEDS)
