@@ -191,7 +191,7 @@ press() {
     echo pull-down > "$simulated/sim_gpio$1/pull"
     sleep "${2:-0.05}"
     echo pull-up > "$simulated/sim_gpio$1/pull"
-    sleep "${2:-0.05}"
+    sleep 0.05
 }
 bouncing() {
     local pull=$simulated/sim_gpio$1/pull to=pull-$2 from="pull-up" i last step longest=0
