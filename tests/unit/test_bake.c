@@ -57,12 +57,9 @@ struct baked {
 };
 
 /* Finishes the maker. */
-static bool bake_within(struct gn_maker *m, double share, int limit_px, uint64_t memory_mb,
-                        struct baked *out) {
+static bool bake_with(struct gn_maker *m, double share, int limit_px, struct baked *out) {
     struct gn_made made = gn_maker_glb(m);
-    const struct gn_scene_limits limits = {.memory_mb = memory_mb};
-    const struct gn_bake_opts opts = {
-        .path = "t", .share = share, .texture_limit_px = limit_px, .limits = &limits};
+    const struct gn_bake_opts opts = {.path = "t", .share = share, .texture_limit_px = limit_px};
     *out = (struct baked){0};
     const bool done =
         gn_bake(&opts, made.data, made.size, &out->bytes, &out->report, &out->warnings, &out->err);
@@ -75,10 +72,6 @@ static bool bake_within(struct gn_maker *m, double share, int limit_px, uint64_t
     assert_non_null(out->document);
     out->json = gn_document_json(out->document);
     return true;
-}
-
-static bool bake_with(struct gn_maker *m, double share, int limit_px, struct baked *out) {
-    return bake_within(m, share, limit_px, 0, out);
 }
 
 static void bake_sheet(const char *nodes, const char *primitive, struct baked *out) {
@@ -388,54 +381,6 @@ static void test_only_pictures_over_the_limit_change(void **state) {
     finish(&b);
 }
 
-/* A mesh of vertices at one place, with targets that the file does not hold. */
-static void make_empty_targets(struct gn_maker *m, int targets) {
-    enum { COUNT = 30000 };
-    static const float zeros[COUNT][3];
-    char text[400];
-    make_sheet(m, "[{'mesh':1}]", "");
-    const int p = gn_maker_accessor(m, "VEC3", 5126, COUNT, zeros, sizeof zeros, NULL);
-    snprintf(text, sizeof text, "{'componentType':5126,'count':%d,'type':'VEC3'}", COUNT);
-    gn_maker_add(m, "accessors", text);
-    int n =
-        snprintf(text, sizeof text, "{'primitives':[{'attributes':{'POSITION':%d},'targets':[", p);
-    for (int i = 0; i < targets; i++)
-        n += snprintf(text + n, sizeof text - (size_t)n, "%s{'POSITION':%d}", i ? "," : "", p + 1);
-    snprintf(text + n, sizeof text - (size_t)n, "]}]}");
-    gn_maker_add(m, "meshes", text);
-}
-
-static void test_what_bake_holds_counts_within_memory_mb(void **state) {
-    (void)state;
-    struct baked b;
-    struct gn_maker m;
-    make_empty_targets(&m, 16); /* 12 bytes x 30000 x 16: 5.5 MB beside .4 MB of a file */
-    assert_false(bake_within(&m, 1, 2048, 3, &b));
-    if (!strstr(b.err.text, "over the limit memory_mb=3")) fail_msg("%s", b.err.text);
-    make_empty_targets(&m, 16);
-    assert_true(bake_within(&m, 1, 2048, 64, &b));
-    finish(&b);
-}
-
-static void test_a_picture_over_memory_mb_stays_as_it_is(void **state) {
-    (void)state;
-    struct gn_maker m;
-    struct baked b;
-    uint8_t *rgba = calloc(1024 * 1024, 4);
-    struct gn_made png = gn_maker_png(1024, 1024, rgba);
-    char image[80];
-    make_sheet(&m, "[{'mesh':0}]", "");
-    snprintf(image, sizeof image, "{'mimeType':'image/png','bufferView':%d}",
-             gn_maker_view(&m, png.data, png.size));
-    gn_maker_add(&m, "images", image);
-    assert_true(bake_within(&m, 1, 16, 4, &b)); /* its texels alone are 4 MB */
-    assert_non_null(strstr(b.warnings.text[0], "memory_mb; kept as it is"));
-    assert_int_equal(b.report.scaled_images, 0);
-    free(rgba);
-    free(png.data);
-    finish(&b);
-}
-
 static void test_scaled_colours_are_averaged_in_linear_light(void **state) {
     (void)state;
     const uint8_t two[] = {0, 255, 128, 0, 255, 255, 128, 255};
@@ -508,8 +453,6 @@ int main(void) {
         cmocka_unit_test(test_vertices_of_no_triangle_do_not_widen_the_grid),
         cmocka_unit_test(test_simplified_surfaces_move_less_than_is_said),
         cmocka_unit_test(test_only_pictures_over_the_limit_change),
-        cmocka_unit_test(test_what_bake_holds_counts_within_memory_mb),
-        cmocka_unit_test(test_a_picture_over_memory_mb_stays_as_it_is),
         cmocka_unit_test(test_scaled_colours_are_averaged_in_linear_light),
         cmocka_unit_test(test_the_estimate_is_near),
         cmocka_unit_test(test_failing_allocations_are_errors),
