@@ -57,6 +57,7 @@ clean:
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
+	@clang-format --version | grep -q 'version 14' || { echo "make format needs clang-format 14: others change files that are right" >&2; exit 1; }
 	clang-format -i $(wildcard src/*.c src/*/*.[ch] src/*/*/*.[ch] tests/*/*.[ch] assets/*.[ch] assets/book/*.[ch] src/import/draco.cc board/*/*.c)
 uninstall:
 	@DESTDIR='$(DESTDIR)' PREFIX='$(PREFIX)' sh board/install.sh uninstall

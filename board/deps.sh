@@ -22,7 +22,7 @@ optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source l
     kmscube kbd libdrm-tests gpiod'
 optional_board_arm64='qemu-system-arm gcc-aarch64-linux-gnu'
 optional_gpus='gcc-aarch64-linux-gnu'
-deb='dpkg-dev debhelper libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libosmesa6-dev git'
+deb='build-essential dpkg-dev debhelper libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libosmesa6-dev git'
 deb_test='lintian desktop-file-utils appstream systemd'
 optional_deb='mmdebstrap' # for roots of another Debian or architecture, and to install in
 
