@@ -36,25 +36,21 @@ vec3 position_ws() {
     return vec3(dot(WORLD_0, p), dot(WORLD_1, p), dot(WORLD_2, p));
 }
 
-// 1 / the square of the scale of the matrix, about: products of its rows by this neither underflow nor overflow, as do those of rows
-// of 1e-10 (quantised meshes of small models) once they are squared.
-float world_shrink() { return 1.0 / max(dot(WORLD_0.xyz, WORLD_0.xyz) + dot(WORLD_1.xyz, WORLD_1.xyz) + dot(WORLD_2.xyz, WORLD_2.xyz), 1e-36); }
-
 // Not of unit length. Normals transform by the inverse transpose, here the cofactor matrix, whose rows are cross products of the
-// matrix's rows: correct for any scale. For mirroring transforms the sign of the determinant is removed.
+// matrix's rows: correct for any scale. For mirroring transforms the sign of the determinant is removed. Its length is the square of
+// the scale, which is 1e-10 in quantised meshes of small models: times 1024, so that neither that square nor that of 1e8 is lost.
 vec3 normal_ws() {
     vec3 c0 = cross(WORLD_1.xyz, WORLD_2.xyz);
     vec3 c1 = cross(WORLD_2.xyz, WORLD_0.xyz);
     vec3 c2 = cross(WORLD_0.xyz, WORLD_1.xyz);
     vec3 n = vec3(dot(c0, NORMAL), dot(c1, NORMAL), dot(c2, NORMAL));
-    float shrink = world_shrink();
-    return dot(WORLD_0.xyz * shrink, c0) < 0.0 ? n * -shrink : n * shrink;
+    return n * (dot(WORLD_0.xyz, c0) < 0.0 ? -1024.0 : 1024.0);
 }
 
 // xyz: unit, times the scale of the normal map; w: sign of the bitangent, which mirroring transforms turn.
 vec4 tangent_ws() {
     vec3 t = vec3(dot(WORLD_0.xyz, TANGENT), dot(WORLD_1.xyz, TANGENT), dot(WORLD_2.xyz, TANGENT));
-    float mirrors = dot(WORLD_0.xyz * world_shrink(), cross(WORLD_1.xyz, WORLD_2.xyz));
+    float mirrors = dot(WORLD_0.xyz, cross(WORLD_1.xyz, WORLD_2.xyz));
     return vec4(normalize(t) * u_uv[2 * SLOT_NORMAL].w, mirrors < 0.0 ? -a_tangent.w : a_tangent.w);
 }
 
