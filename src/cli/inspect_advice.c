@@ -95,12 +95,14 @@ static void check_lights(struct gn_inspection *in) {
                        "the file has no light: it is shown in a studio");
 }
 
-/* Of a file with one camera, as Blender's own is that nobody moved to the model. */
+/* Of a model with one camera, as Blender's own is that nobody moved to the model. One with a ground
+ * of its own is a scene, whose camera somebody placed: its ground may lie far out of the picture.
+ */
 static void check_view(struct gn_inspection *in) {
     const struct gn_scene *s = in->scene;
     struct gn_pose pose;
     bool cuts;
-    if (s->added.camera || s->camera_count != 1 || !s->item_count) return;
+    if (s->added.camera || s->camera_count != 1 || !s->item_count || !s->added.floor) return;
     gn_pose_init(&pose, s, GN_POSE_DEFAULT);
     const float share = gn_framing_share(&pose, 0, &cuts);
     gn_pose_finish(&pose);

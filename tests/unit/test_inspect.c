@@ -224,16 +224,28 @@ static void test_a_deep_camera_is_noticed(void **state) {
     assert_no_advice("no camera");
 }
 
-/* The square of 2 m, through one camera or two of the same kind, the first of them named. */
+/* With a floor where the scene has none. */
+static void inspect_on_floor(void) {
+    const struct gn_scene_limits limits = {.floor = {.kind = GN_FLOOR_AUTO}};
+    struct gn_made glb = gn_maker_glb(&maker);
+    scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+    free(glb.data);
+    gn_maker_finish(&maker);
+    if (!scene) fail_msg("%s", err.text);
+    gn_inspect_build(&in, "t", scene, NULL, &warnings);
+}
+
+/* A cube of 2 m, through one camera or two of the same kind, the first of them named. */
 static void inspect_through(const char *cameras) {
     char json[400];
     gn_maker_add(&maker, "cameras",
                  "{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1,'zfar':100}}");
-    snprintf(json, sizeof json, "[{'mesh':0},%s]", cameras);
+    gn_maker_cube(&maker);
+    snprintf(json, sizeof json, "[{'mesh':1},%s]", cameras);
     gn_maker_set(&maker, "nodes", json);
     gn_maker_set(&maker, "scenes",
                  strstr(cameras, "},{") ? "[{'nodes':[0,1,2]}]" : "[{'nodes':[0,1]}]");
-    inspect();
+    inspect_on_floor();
 }
 
 static void test_a_camera_that_misses_the_model_is_noticed(void **state) {
@@ -257,6 +269,15 @@ static void test_cameras_that_show_it_and_details_are_no_fault(void **state) {
     setup(NULL);
     inspect_through("{'name':'eye','camera':0,'translation':[1,0.5,2.5]},"
                     "{'camera':0,'translation':[0,1,9]}");
+    assert_no_advice("camera 'eye'");
+}
+
+static void test_a_camera_over_a_ground_of_the_file_is_no_fault(void **state) {
+    (void)state;
+    inspect_through("{'name':'eye','camera':0,'translation':[0,1,-9]},"
+                    "{'mesh':1,'scale':[5,0.05,5],'translation':[0,-1,0]}");
+    assert_false(scene->added.floor);
+    assert_int_equal(scene->camera_count, 1);
     assert_no_advice("camera 'eye'");
 }
 
@@ -284,15 +305,9 @@ static void test_glass_is_not_called_opaque(void **state) {
 
 static void test_the_unseen_floor_is_nobodys_fault(void **state) {
     (void)state;
-    const struct gn_scene_limits limits = {.floor = {.kind = GN_FLOOR_AUTO}};
     gn_maker_set(&maker, "nodes", "[{'mesh':0,'rotation':[0.5,0,0,0.8660254]}]");
-    struct gn_made glb = gn_maker_glb(&maker);
-    scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
-    free(glb.data);
-    gn_maker_finish(&maker);
-    if (!scene) fail_msg("%s", err.text);
+    inspect_on_floor();
     assert_true(scene->added.floor);
-    gn_inspect_build(&in, "t", scene, NULL, &warnings);
     assert_no_advice("'floor'");
 
     /* nor does what is made count as the file's */
@@ -431,6 +446,7 @@ int main(void) {
         TEST(test_a_camera_that_misses_the_model_is_noticed),
         TEST(test_a_camera_that_cuts_the_model_is_noticed),
         TEST(test_cameras_that_show_it_and_details_are_no_fault),
+        TEST(test_a_camera_over_a_ground_of_the_file_is_no_fault),
         TEST(test_a_near_plane_that_goes_out_is_named),
         TEST(test_a_mask_without_holes_is_noticed),
         TEST(test_blend_without_transparency_is_opaque),
