@@ -310,7 +310,7 @@ void gn_gestures_step(struct gn_gestures *g, int64_t now_ns) {
 }
 
 int64_t gn_gesture_sane_time_ns(int64_t time_ns, int64_t now_ns) {
-    const bool sane = time_ns <= now_ns + 1000 * MS && time_ns >= now_ns - 10000 * MS;
+    const bool sane = time_ns <= now_ns + 1000 * MS && time_ns >= now_ns - 300000 * MS;
     return sane ? time_ns : now_ns;
 }
 

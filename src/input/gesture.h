@@ -122,7 +122,8 @@ void gn_gestures_key_gone(struct gn_gestures *g, int button, int64_t time_ns);
 bool gn_gestures_at_rest(const struct gn_gestures *g, int button);
 
 /* Validates a kernel timestamp: returns now_ns for one that is more than a second ahead of the
- * clock or more than ten seconds old. */
+ * clock or more than five minutes old: of another clock. A press that was made while a frame took
+ * long is still one, since its two edges keep their distance. */
 int64_t gn_gesture_sane_time_ns(int64_t time_ns, int64_t now_ns);
 /* Advances time. The deadline is when to call it at the latest; INT64_MAX: not before the next
  * event. */

@@ -117,6 +117,24 @@ static void test_a_press_comes_with_its_edge(void **state) {
     assert_silence();
 }
 
+static void test_a_press_during_a_long_frame_counts(void **state) {
+    (void)state;
+    fake_gpio_plug(&gpio, 0, 4, "pinctrl-rp1", 4);
+    open_input(&fake_gpio_ops);
+    assert_report("button \"next\": B (gpiochip4 line 1)");
+    for (int64_t blocked_ns = S; blocked_ns < 300 * S; blocked_ns *= 4) {
+        const int64_t begun_ns = now_ns += 2 * S;
+        edge(false);
+        now_ns += 50 * MS;
+        edge(true);
+        now_ns += blocked_ns;
+        assert_true(wakes());
+        assert_gesture(GN_GESTURE_PRESS, begun_ns);
+        assert_gesture(GN_GESTURE_CLICK, begun_ns + 50 * MS);
+        assert_nothing();
+    }
+}
+
 static void test_a_line_is_found_by_its_chips_label(void **state) {
     (void)state;
     buttons[0].line = "label:gpio3/2";
@@ -428,6 +446,7 @@ int main(void) {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, setup, teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_a_press_comes_with_its_edge),
+        TEST(test_a_press_during_a_long_frame_counts),
         TEST(test_a_line_is_found_by_its_chips_label),
         TEST(test_other_kernels_names_of_a_pi_are_known),
         TEST(test_on_other_boards_those_names_mean_something_else),
