@@ -39,10 +39,9 @@ pulse() {
     while sleep 5; do now > /run/out/pulse; done
 }
 
-# within SECONDS COMMAND..: true as soon as the command is. A busy host has four times as long: nobody claims
-# that anything is that quick.
+# within SECONDS COMMAND..: true as soon as the command is
 within() {
-    local until=$(($(now) + $1 * 4000))
+    local until=$(($(now) + $1 * 1000))
     shift
     until "$@"; do
         [ "$(now)" -lt "$until" ] || return 1
@@ -63,7 +62,7 @@ port() { # NAME: the device of this virtio-serial port
 qmp() {
     local line
     printf '%s\n' "$1" >&"$monitor"
-    while IFS= read -r -t 120 line <&"$monitor"; do
+    while IFS= read -r -t 30 line <&"$monitor"; do
         case $line in
         *'"return"'*) return 0 ;;
         *'"error"'*) say "qmp: $line" && return 1 ;;
