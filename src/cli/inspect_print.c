@@ -158,7 +158,7 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
         print_line(to, "%-3u %s", i, s->variants.names[i]);
 }
 
-void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
+static void print_scene(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene *s = in->scene;
     const struct kinds k = count_kinds(s);
     const struct counts n = count_parts(s);
@@ -193,8 +193,10 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     for (int i = 0; i < 3; i++)
         print_line(to, "%-11s %.3g %.3g %.3g", names[i], (double)colors[i][0], (double)colors[i][1],
                    (double)colors[i][2]);
-    print_lists(in, to);
+}
 
+static void print_cost(const struct gn_inspection *in, FILE *to) {
+    const struct gn_scene_memory *memory = &in->scene->memory;
     const struct gn_scene_cost *c = &in->cost;
     fprintf(to, "\nCost at %dx%d through the first camera\n", GN_INSPECT_WIDTH_PX,
             GN_INSPECT_HEIGHT_PX);
@@ -208,9 +210,11 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
                "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
                GN_MB(c->map_bytes), GN_MB(c->target_bytes));
     print_line(to, "%-11s %.2f MB, while it is loaded up to %.2f MB", "memory",
-               GN_MB(s->memory.bytes), GN_MB(s->memory.loading_bytes));
+               GN_MB(memory->bytes), GN_MB(memory->loading_bytes));
     if (in->limits[0]) print_line(to, "%-11s %s", "limits", in->limits);
+}
 
+static void print_problems(const struct gn_inspection *in, FILE *to) {
     const int warnings = in->warnings ? in->warnings->count : 0;
     fprintf(to, "\nProblems\n");
     if (!warnings && !in->advice.count) print_line(to, "nothing");
@@ -222,6 +226,13 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
         print_line(to, "  cure: %s", in->advice.items[i].cure);
     }
     if (in->advice.dropped) print_line(to, "- and %u more like these", in->advice.dropped);
+}
+
+void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
+    print_scene(in, to);
+    print_lists(in, to);
+    print_cost(in, to);
+    print_problems(in, to);
 }
 
 /* ---- for programs -------------------------------------------------------------------------- */

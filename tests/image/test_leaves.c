@@ -2,6 +2,7 @@
  * no rim of the colour that the picture has where it is clear. */
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "image/shot.h"
 #include "unit/check.h"
@@ -9,20 +10,10 @@
 
 enum { SIDE = 256, PX = 240 };
 
-/* A square of 2 m with leaves on a fifth of it, on black; `away` from the camera, over a floor 0.5
- * m behind it, which a light shines on along the view. */
-static char *write_scene(float away, float cutoff, float factor) {
-    static uint8_t rgba[4 * SIDE * SIDE];
-    static const float uv[8] = {0, 0, 1, 0, 0, 1, 1, 1};
-    struct gn_maker maker;
-    struct gn_err err = {0};
-    char text[500], *path = malloc(300);
+/* Leaves on a fifth of it, green on black; red where it is clear. */
+static void paint_leaves(uint8_t rgba[4 * SIDE * SIDE]) {
     uint32_t seed = 5;
-    snprintf(path, 300, "%s/leaves.glb", gn_shot_build());
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        for (int k = 0; k < 4; k++) rgba[4 * i + k] = 0;
-        rgba[4 * i] = 255; /* red where it is clear */
-    }
+    for (int i = 0; i < SIDE * SIDE; i++) memcpy(rgba + 4 * i, (uint8_t[]){255, 0, 0, 0}, 4);
     for (int i = 0; i < 500; i++) {
         int at[2];
         for (int k = 0; k < 2; k++) {
@@ -33,11 +24,21 @@ static char *write_scene(float away, float cutoff, float factor) {
             const int x = k % 9 - 4, y = k / 9 - 4;
             uint8_t *p =
                 rgba + 4 * (((at[1] + y) & (SIDE - 1)) * SIDE + ((at[0] + x) & (SIDE - 1)));
-            if (4 * x * x + y * y >= 17) continue;
-            p[0] = p[2] = 0;
-            p[1] = p[3] = 255;
+            if (4 * x * x + y * y < 17) memcpy(p, (uint8_t[]){0, 255, 0, 255}, 4);
         }
     }
+}
+
+/* A square of 2 m with leaves on a fifth of it, on black; `away` from the camera, over a floor 0.5
+ * m behind it, which a light shines on along the view. */
+static char *write_scene(float away, float cutoff, float factor) {
+    static uint8_t rgba[4 * SIDE * SIDE];
+    static const float uv[8] = {0, 0, 1, 0, 0, 1, 1, 1};
+    struct gn_maker maker;
+    struct gn_err err = {0};
+    char text[500], *path = malloc(300);
+    snprintf(path, 300, "%s/leaves.glb", gn_shot_build());
+    paint_leaves(rgba);
     struct gn_made png = gn_maker_png(SIDE, SIDE, rgba);
     gn_maker_init(&maker);
     gn_maker_square(&maker);
