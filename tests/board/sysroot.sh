@@ -19,7 +19,7 @@ state=$store/apt-${FOR:-}${FOR:+-}$architecture-$suite
 
 build='libc6-dev libjansson-dev libpng-dev zlib1g-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
     libcglm-dev libdrm-dev libgbm-dev libudev-dev libcmocka-dev'
-run='bash coreutils findutils grep mawk sed diffutils util-linux mount kbd kmscube libegl1 libgles2
+run='bash coreutils findutils grep mawk sed diffutils util-linux kbd kmscube libegl1 libgles2
     libegl-mesa0 libgl1-mesa-dri busybox-static'
 [ "${FOR:-}" != gpus ] || run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri mesa-drm-shim'
 

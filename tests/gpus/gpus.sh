@@ -46,7 +46,7 @@ on() {
     shift
     [ "$driver" != v3d ] || preload=$PWD/$build/tests/ident.so:
     env GALLIUM_THREAD=0 MESA_SHADER_CACHE_DISABLE=true FD_MESA_DEBUG=shaderdb ${setting:+"$setting"} \
-        timeout --kill-after=5 "${GPU_LIMIT:-3000}" "$qemu" -L "$root" \
+        timeout --kill-after=5 "${GPU_LIMIT:-1500}" "$qemu" -L "$root" \
         -E LD_PRELOAD="$preload$libraries/lib${driver}_noop_drm_shim.so" "$@"
 }
 
@@ -131,7 +131,7 @@ try() {
         said=$?
         [ "$said" = 0 ] || status=$said
         keep "$gpu" "$file"
-        [ "$said" != 124 ] || echo "$gpu: not done after ${GPU_LIMIT:-3000} seconds"
+        [ "$said" != 124 ] || echo "$gpu: not done after ${GPU_LIMIT:-1500} seconds"
         grep '^FAIL' "$file" | sed "s/^FAIL\t/$gpu: /"
         [ "$said" = 0 ] || [ -s "$file" ] || tail -n 3 "$file.err"
         [ -z "${GN_UPDATE:-}" ] || update "$gpu" "$file"
