@@ -133,11 +133,6 @@ static const char *scene_path(const struct gn_settings *o, int scene) {
 /* file: as in gn_show_config. */
 static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const char *file) {
     struct gn_err why = {0};
-    if (s->reload.first) { /* it goes on */
-        gn_fail(&why, "the first scene is still loading; try again");
-        if (cause == GN_RELOAD_FILE) gn_show_answer_reload(s, &why);
-        return;
-    }
     struct gn_options *options = gn_show_read_options(s->config.options, NULL, &why);
     if (options && !options->config_error) {
         const char *own = file ? gn_show_put_file(options, file) : NULL;
@@ -156,12 +151,14 @@ static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const ch
     keep_old(s, cause == GN_RELOAD_SEEN ? GN_RELOAD_ASKED : cause, &why);
 }
 
+/* The first scene is loaded before any other, since there is nothing to go back to. */
 void gn_show_reload(struct gn_show *s) {
-    struct gn_show_wish *wish = &s->wish;
-    const char *file = wish->file[0] ? wish->file : NULL;
+    if (!s->reloads || s->reload.first) return;
+    const struct gn_show_wish wish = s->wish;
     s->reloads = false;
-    begin_reload(s, wish->cause, wish->cause == GN_RELOAD_FILE ? file : s->config.file);
-    wish->cause = GN_RELOAD_ASKED;
+    s->wish = (struct gn_show_wish){.cause = GN_RELOAD_ASKED};
+    const char *file = wish.file[0] ? wish.file : NULL;
+    begin_reload(s, wish.cause, wish.cause == GN_RELOAD_ASKED ? s->config.file : file);
 }
 
 /* New content also replaces the scene of ctl scene. A reload that was asked for comes first. */
@@ -180,7 +177,9 @@ void gn_show_scene_files(const struct gn_show *s, const char *out_paths[3]) {
 }
 
 void gn_show_load_file(struct gn_show *s, const char *path) {
-    begin_reload(s, GN_RELOAD_DROP, path);
+    s->reloads = true;
+    s->wish.cause = GN_RELOAD_DROP;
+    snprintf(s->wish.file, sizeof s->wish.file, "%s", path);
 }
 
 /* The mode may have changed while the scene loaded. */

@@ -20,9 +20,9 @@ enum gn_reload_cause {
     GN_RELOAD_DROP,  /* a file dropped onto the window: a caption has a failure for a while */
     GN_RELOAD_SEEN,  /* a file that is shown has changed: likewise */
 };
-struct gn_show_wish { /* the reload that the next step begins, once `reloads` is set */
+struct gn_show_wish { /* begins when `reloads` is set and the first scene is there */
     enum gn_reload_cause cause;
-    char file[PATH_MAX]; /* of GN_RELOAD_FILE; "": the options' scenes */
+    char file[PATH_MAX]; /* "": the options' scenes */
 };
 struct gn_show_reload {
     struct gn_options *options; /* read; NULL: none */

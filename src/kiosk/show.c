@@ -27,7 +27,7 @@ bool gn_show_step(struct gn_show *s, struct gn_err *err) {
     gn_loop_step(s->loop, parts_ns < screen_ns ? parts_ns : screen_ns);
     gn_parts_look(&s->parts);
     if (s->ends) return true;
-    if (s->reloads) gn_show_reload(s);
+    gn_show_reload(s);
     if (!gn_show_step_reload(s, err) || !gn_show_take_events(&s->screen, err)) return false;
     if (s->ends) return true;
     if (!gn_show_step_machine(&s->screen, err)) return false;

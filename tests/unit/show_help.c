@@ -21,7 +21,8 @@ struct gn_show *help_show(const char *const more[]) {
     help_open(&display, "egl"); /* or the test is skipped */
     gn_display_close(&display);
     while (argc < 4) argv[argc] = first[argc], argc++;
-    while (*more && argc < ARGUMENTS_MAX) argv[argc++] = *more++;
+    while (*more && argc < ARGUMENTS_MAX - 1) argv[argc++] = *more++;
+    argv[argc] = NULL;
     setenv("XDG_CONFIG_HOME", "/nowhere", 1);
     if (!gn_args_parse(&options, argc, (char *const *)(uintptr_t)argv, &warnings, &err))
         fail_msg("%s", err.text);

@@ -252,7 +252,7 @@ static json_t *answer_rollback(struct gn_show *s, const struct gn_request *r, st
 
 void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
     struct gn_show_control *c = s->control;
-    if (!c) return;
+    if (!c || s->reloads) return; /* what is asked for waits for the first scene */
     const struct gn_request *r = c->reload;
     c->reload = NULL;
     if (r && why) gn_control_refuse(c->control, r, why);
