@@ -3,8 +3,8 @@
 # tests also wait) at a time, and counts. NAME=VALUE goes into the environment of those that follow (BUILD=build/asan),
 # NAME= takes it out again; tests/goal.sh prints the arguments for a goal of make.
 # tests/table has the processor seconds that each may take; the longest begin first, and those with ALONE=1
-# run alone, after the others. Virtual machines (.guest), of two processors each, run beside
-# the others, one for every two processors. A line is printed when a test has ended, and with it the end
+# run alone, after the others. Virtual machines (.guest), which also wait, begin
+# before the others, one for every processor. A line is printed when a test has ended, and with it the end
 # of its log if it failed. Exit status 77 is a skip, whose last line has the reason; the tests inside a
 # cmocka program count one by one. STRICT=1 makes a skip a failure. A script that succeeds with a
 # line "not applicable: why" has nothing to test on this kind of machine and is not counted.
@@ -170,9 +170,7 @@ mapfile -t waiting < <([ ${#programs[@]} = 0 ] || plan | grep '^machine ')
 mapfile -t others < <([ ${#programs[@]} = 0 ] || plan | grep -v '^machine ')
 while :; do
     when=${others[0]:-none} when=${when%% *} running=${#result_of[@]}
-    # the last machines have nothing beside them but another machine
-    most=$((($(nproc) + 1) / 2)) && [ "$when" = beside ] || most=$((2 * most))
-    if [ "${#waiting[@]}" -gt 0 ] && [ "$running" -lt "$jobs" ] && [ "$machines" -lt "$most" ]; then
+    if [ "${#waiting[@]}" -gt 0 ] && [ "$running" -lt "$jobs" ] && [ "$machines" -lt "$(nproc)" ]; then
         # shellcheck disable=SC2086
         start ${waiting[0]}
         waiting=("${waiting[@]:1}")
