@@ -53,14 +53,33 @@ static const struct lamp coarse_lamps[] = {
     {13, 170, {-3.8f, 3.6f, 3.4f}, OPEN},
     {5, 300, {.3f, 3.2f, .5f}, ROOM},
 };
-enum { SCENES = sizeof scenes / sizeof *scenes, LAMPS = sizeof lamps / sizeof *lamps };
-enum { COARSE_SCENES = sizeof coarse_scenes / sizeof *coarse_scenes };
-enum { COARSE_LAMPS = sizeof coarse_lamps / sizeof *coarse_lamps };
-enum { CASTERS_MAX = 16 };
-_Static_assert(SCENES == 24 && LAMPS == 6 && COARSE_SCENES == 6 && COARSE_LAMPS == 3,
-               "the table is part of the contract");
+/* Scenes of rods of 3 cm, and of boxes of mirrored, uneven scale, numbered after those. */
+static const struct scene rod_scenes[] = {{8, 60, 40, 12}, {8, 38, 200, 12}, {8, 75, 310, 12}};
+static const struct scene mirror_scenes[] = {{8, 50, 70, 10}, {5, 35, 230, 12}, {13, 65, 340, 15}};
 
-enum kind { BOX, WALL, BALL, FENCE, TILT, COARSE_BALL, HEAD, CYLINDER, CUBE, KINDS };
+enum kind { BOX, WALL, BALL, FENCE, TILT, COARSE_BALL, HEAD, CYLINDER, CUBE, ROD, MIRROR, KINDS };
+
+/* The casters of a set, which find a place in this order, over and over. */
+static const enum kind mixed[] = {BOX,  WALL, BALL, FENCE, TILT, BOX, WALL,
+                                  BALL, BOX,  TILT, WALL,  BALL, BOX};
+static const enum kind coarse[] = {HEAD,     COARSE_BALL, CYLINDER, COARSE_BALL, CUBE,
+                                   CYLINDER, COARSE_BALL, HEAD,     COARSE_BALL, CYLINDER};
+static const enum kind rods[] = {ROD}, mirrors[] = {MIRROR};
+#define LIST(array) array, sizeof(array) / sizeof *(array)
+static const struct set {
+    const struct scene *scenes;
+    int scene_count;
+    const struct lamp *lamps;
+    int lamp_count;
+    const enum kind *order;
+    int order_count, casters;
+} sets[] = {
+    {LIST(scenes), LIST(lamps), LIST(mixed), 13},
+    {LIST(coarse_scenes), LIST(coarse_lamps), LIST(coarse), 10},
+    {LIST(rod_scenes), NULL, 0, LIST(rods), 20},
+    {LIST(mirror_scenes), NULL, 0, LIST(mirrors), 10},
+};
+enum { SETS = sizeof sets / sizeof *sets, CASTERS_MAX = 24 };
 
 struct spot { /* position of a caster on the ground, in units of the scene's scale */
     float x, z, radius;
@@ -72,7 +91,7 @@ struct build {
     const struct lamp *lamp; /* point light instead of the scene's light, or NULL */
     uint32_t seed;
     float unit; /* scale, metres: 1 for a scene of 10 m */
-    struct spot placed[CASTERS_MAX];
+    struct spot placed[CASTERS_MAX + 2];
     int count;
     int counts[KINDS];
 };
@@ -171,16 +190,36 @@ static void make_cube(struct build *b, struct gn_shape *shape) {
     gn_shape_block(shape, side, side, side);
 }
 
+/* Upright, leaning or on the ground. */
+static void make_rod(struct build *b, struct gn_shape *shape) {
+    const float radius = .015f, length = chance(b, .6f, 1.6f), way = chance(b, 0, 3);
+    gn_shape_move(shape, 0, way < 2 ? 0 : radius, 0);
+    gn_shape_turn(shape, 'x', way < 1 ? 0 : way < 2 ? chance(b, 20, 60) : 90);
+    gn_shape_cylinder(shape, radius, length, 12);
+}
+
+/* Its node makes it larger. */
+static void make_mirror(struct build *b, struct gn_shape *shape) {
+    gn_shape_turn(shape, 'y', chance(b, 0, 90));
+    gn_shape_block(shape, .3f * b->unit, .3f * b->unit, .3f * b->unit);
+}
+
 static const struct {
     const char *name;
     caster_fn *make;
     float radius; /* of the free circle it needs */
 } kinds[KINDS] = {
-    [BOX] = {"box", make_box, 0.8f},       [WALL] = {"wall", make_wall, 1.1f},
-    [BALL] = {"sphere", make_ball, 0.65f}, [FENCE] = {"fence", make_fence, 1.1f},
-    [TILT] = {"plane", make_tilt, 0.9f},   [COARSE_BALL] = {"coarse sphere", make_coarse_ball, 1},
-    [HEAD] = {"head", make_head, 1.05f},   [CYLINDER] = {"cylinder", make_cylinder, 1.1f},
+    [BOX] = {"box", make_box, 0.8f},
+    [WALL] = {"wall", make_wall, 1.1f},
+    [BALL] = {"sphere", make_ball, 0.65f},
+    [FENCE] = {"fence", make_fence, 1.1f},
+    [TILT] = {"plane", make_tilt, 0.9f},
+    [COARSE_BALL] = {"coarse sphere", make_coarse_ball, 1},
+    [HEAD] = {"head", make_head, 1.05f},
+    [CYLINDER] = {"cylinder", make_cylinder, 1.1f},
     [CUBE] = {"cube", make_cube, 0.8f},
+    [ROD] = {"rod", make_rod, .5f},
+    [MIRROR] = {"mirrored box", make_mirror, .9f},
 };
 
 static void add_caster(struct build *b, enum kind kind) {
@@ -199,20 +238,13 @@ static void add_caster(struct build *b, enum kind kind) {
     node.mesh = gn_glb_mesh(b->glb, name, gn_glb_geometry(b->glb, &shape),
                             gn_glb_material(b->glb, &material));
     gn_glb_turn_y(chance(b, 0, 360), node.turn);
+    if (kind == MIRROR) {
+        node.scale[0] = -chance(b, 1, 3.5f);
+        node.scale[1] = chance(b, 1, 5);
+        node.scale[2] = chance(b, 1, 3.5f);
+    }
     gn_glb_node(b->glb, &node);
     gn_shape_finish(&shape);
-}
-
-static void add_casters(struct build *b) {
-    static const enum kind order[] = {BOX,  WALL, BALL, FENCE, TILT, BOX, WALL,
-                                      BALL, BOX,  TILT, WALL,  BALL, BOX};
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++) add_caster(b, order[i]);
-}
-
-static void add_coarse_casters(struct build *b) {
-    static const enum kind order[] = {HEAD,     COARSE_BALL, CYLINDER, COARSE_BALL, CUBE,
-                                      CYLINDER, COARSE_BALL, HEAD,     COARSE_BALL, CYLINDER};
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++) add_caster(b, order[i]);
 }
 
 /* ---- ground, light, camera ---- */
@@ -378,14 +410,10 @@ static bool write_note(const struct build *b, const char *path) {
         perror(path);
         return false;
     }
-    if (b->counts[COARSE_BALL])
-        fprintf(file, "%d coarse spheres, %d heads, %d cylinders, %d cubes on %g m; ",
-                b->counts[COARSE_BALL], b->counts[HEAD], b->counts[CYLINDER], b->counts[CUBE],
-                (double)s->size);
-    else
-        fprintf(file, "%d boxes, %d walls, %d spheres, %d fences, %d tilted planes on %g m; ",
-                b->counts[BOX], b->counts[WALL], b->counts[BALL], b->counts[FENCE], b->counts[TILT],
-                (double)s->size);
+    for (int i = 0, before = 0; i < KINDS; i++)
+        if (b->counts[i])
+            fprintf(file, "%s%s %d", before++ ? ", " : "", kinds[i].name, b->counts[i]);
+    fprintf(file, " on %g m; ", (double)s->size);
     if (b->lamp)
         fprintf(file, "point %s at %g %g %g\n", sites[b->lamp->site],
                 (double)(b->lamp->at[0] * b->unit), (double)(b->lamp->at[1] * b->unit),
@@ -406,14 +434,10 @@ static bool write_scene(struct build *b, const char *folder, const char *name) {
     return ok;
 }
 
-static bool write_truth(const char *folder, int index) {
-    const bool coarse = index >= SCENES + LAMPS;
-    const int nth = coarse ? index - SCENES - LAMPS : index;
-    const int scene_count = coarse ? COARSE_SCENES : SCENES;
-    const struct lamp *lamp =
-        nth < scene_count ? NULL : (coarse ? coarse_lamps : lamps) + nth - scene_count;
-    const struct scene around = lamp ? (struct scene){lamp->size, 0, lamp->azimuth, 0}
-                                     : (coarse ? coarse_scenes : scenes)[nth];
+static bool write_truth(const char *folder, int index, const struct set *set, int nth) {
+    const struct lamp *lamp = nth < set->scene_count ? NULL : &set->lamps[nth - set->scene_count];
+    const struct scene around =
+        lamp ? (struct scene){lamp->size, 0, lamp->azimuth, 0} : set->scenes[nth];
     struct build b;
     init_build(&b, &around, (uint32_t)index + 1);
     b.lamp = lamp;
@@ -423,10 +447,7 @@ static bool write_truth(const char *folder, int index) {
         add_light(&b);
     add_ground(&b);
     if (lamp) add_site(&b);
-    if (coarse)
-        add_coarse_casters(&b);
-    else
-        add_casters(&b);
+    for (int i = 0; i < set->casters; i++) add_caster(&b, set->order[i % set->order_count]);
     add_camera(&b);
     char name[32];
     snprintf(name, sizeof name, "truth-%02d", index);
@@ -473,7 +494,8 @@ int main(int argc, char **argv) {
              write_contact(argv[2], "contact-point", 0, &lamp);
         return ok ? 0 : 1;
     }
-    for (int i = 0; ok && i < SCENES + LAMPS + COARSE_SCENES + COARSE_LAMPS; i++)
-        ok = write_truth(argv[1], i);
+    for (int i = 0, index = 0; i < SETS; i++)
+        for (int nth = 0; ok && nth < sets[i].scene_count + sets[i].lamp_count; nth++)
+            ok = write_truth(argv[1], index++, &sets[i], nth);
     return ok ? 0 : 1;
 }

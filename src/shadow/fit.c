@@ -124,12 +124,17 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     if (!found) make_view_empty(view);
     if (!found || row->on_plane) return found;
 
-    /* normal offset and slope follow the width that the technique averages over; the factors are
+    /* Normal offset and slope follow the width that the technique averages over; the factors are
      * measured by `make truth`. A spot's and a point light's slope moves no lookup, and costs no
-     * width of a shadow: of their bias more is slope. */
-    view->lookup.normal_offset = (view->perspective ? 0.7f : 1.0f) * view->lookup.bias_texels;
-    view->lookup.slope_offset = (view->perspective ? 1.05f : 0.7f) * view->lookup.bias_texels;
-    view->lookup.slope_max = view->perspective ? 8.0f : 4.0f;
+     * width of a shadow: their bias is mostly slope, but that of blurred maps, which would leak
+     * where a coarse mesh turns away from the light. */
+    static const struct {
+        float normal, slope, slope_max;
+    } factors[] = {{1.0f, 0.7f, 4.0f}, {0.3f, 1.45f, 5.6f}, {0.7f, 1.05f, 8.0f}};
+    const int kind = !view->perspective ? 0 : row->filter == GN_FILTER_BLUR ? 2 : 1;
+    view->lookup.normal_offset = factors[kind].normal * view->lookup.bias_texels;
+    view->lookup.slope_offset = factors[kind].slope * view->lookup.bias_texels;
+    view->lookup.slope_max = factors[kind].slope_max;
     /* cascades have hashed theirs */
     for (uint32_t i = 0; i < view->map.tile_count && view->map.cascade_count == 0; i++)
         view->raster.tiles[i].content_hash =

@@ -18,6 +18,8 @@ const struct gn_table_range gn_table_kinds[GN_TABLE_KINDS] = {
     [GN_TABLE_SUN_AND_SPOT] = {"directional lights and spots", 0, 23},
     [GN_TABLE_POINT] = {"point lights", 24, 29},
     [GN_TABLE_SMOOTH] = {"coarse meshes with smooth normals: sun, spot, point", 30, 38},
+    [GN_TABLE_THIN] = {"rods of 3 cm under spots", 39, 41},
+    [GN_TABLE_MIRRORED] = {"boxes of mirrored, uneven scale under spots", 42, 44},
 };
 
 /* --- scenes --- */
@@ -298,10 +300,10 @@ static bool is_hard(const struct gn_table_row *row) { return !strcmp(row->techni
 /* What Chebyshev's inequality lets through behind two casters is not all cut off. */
 static bool is_bleeding(const struct gn_table_row *row) { return !strcmp(row->technique, "vsm"); }
 
-static bool is_coarse(const struct gn_table_row *row) {
+static bool is_of(const struct gn_table_row *row, enum gn_table_kind kind) {
     int i = 0;
     while (i < GN_TABLE_SCENES && !row->measured[i]) i++;
-    return i >= gn_table_kinds[GN_TABLE_SMOOTH].first;
+    return i >= gn_table_kinds[kind].first && i <= gn_table_kinds[kind].last;
 }
 
 static const struct gn_limit_row no_limit = {INFINITY, INFINITY};
@@ -312,14 +314,17 @@ struct gn_limit_row gn_table_limit(const struct gn_table_row *row, enum gn_fault
     if (fault == GN_FAULT_DARKENED) return (struct gn_limit_row){.1, INFINITY};
     /* where the normal is turned away from the light and the face is not, no light arrives that a
      * shadow could take */
-    if (is_coarse(row) && (fault == GN_FAULT_ACNE || fault == GN_FAULT_WRONG)) return no_limit;
+    if (is_of(row, GN_TABLE_SMOOTH) && (fault == GN_FAULT_ACNE || fault == GN_FAULT_WRONG))
+        return no_limit;
     if (fault == GN_FAULT_LEAK && !small && is_bleeding(row)) return (struct gn_limit_row){.08, .3};
     /* beside such places a filter that needs a wide bias shows some of the shadow lit */
-    if (is_coarse(row) && fault == GN_FAULT_LEAK)
+    if (is_of(row, GN_TABLE_SMOOTH) && fault == GN_FAULT_LEAK)
         return small ? (struct gn_limit_row){.06, INFINITY} : (struct gn_limit_row){.03, .3};
     if (fault <= GN_FAULT_LEAK)
         return small ? (struct gn_limit_row){.05, INFINITY} : (struct gn_limit_row){.02, .3};
     if (small || !(is_hard(row) || is_planar(row))) return no_limit;
+    /* of a shadow that is three texels wide an edge is a larger share */
+    if (fault == GN_FAULT_GAP && is_of(row, GN_TABLE_THIN)) return (struct gn_limit_row){5, 7};
     return fault == GN_FAULT_GAP ? (struct gn_limit_row){3, 5}
                                  : (struct gn_limit_row){.15, INFINITY};
 }

@@ -8,18 +8,25 @@
 
 #include "image/truth.h"
 
-enum { GN_TABLE_SCENES = 39, GN_TABLE_ROWS = 80 };
+enum { GN_TABLE_SCENES = 45, GN_TABLE_ROWS = 80 };
 
 /* The scenes go by kinds of light, and those of coarse meshes with smooth normals are a kind, each
  * with a table of its own: what is asked of one kind must not hide behind another. */
-enum gn_table_kind { GN_TABLE_SUN_AND_SPOT, GN_TABLE_POINT, GN_TABLE_SMOOTH, GN_TABLE_KINDS };
+enum gn_table_kind {
+    GN_TABLE_SUN_AND_SPOT,
+    GN_TABLE_POINT,
+    GN_TABLE_SMOOTH,
+    GN_TABLE_THIN,
+    GN_TABLE_MIRRORED,
+    GN_TABLE_KINDS
+};
 struct gn_table_range {
     const char *name;
     int first, last;
 };
 extern const struct gn_table_range gn_table_kinds[GN_TABLE_KINDS];
 
-/* Folder with truth-00.glb .. truth-38.glb (or the contact scenes), made by <parent of
+/* Folder with truth-00.glb .. truth-44.glb (or the contact scenes), made by <parent of
  * BUILD>/host/make_truth when it is not there yet; a new generator makes a new folder. NULL and a
  * message on failure; free() it. */
 char *gn_table_scenes(bool contact, struct gn_err *err);

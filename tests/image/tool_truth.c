@@ -11,8 +11,9 @@
 
 static const char usage[] =
     "usage: tool_truth [options]\n"
-    "  --scenes A-B[,C..]  which of 0-38 (all; 24-29: point lights;\n"
-    "                      30-38: coarse meshes with smooth normals)\n"
+    "  --scenes A-B[,C..]  which of 0-44 (all; 24-29: point lights;\n"
+    "                      30-38: coarse meshes with smooth normals; 39-41: thin rods,\n"
+    "                      42-44: mirrored, uneven scale, both under spots)\n"
     "  --technique LIST    of hard,pcf,pcf2,.. (all)\n"
     "  --format LIST       of depth,r16f,r16f-raw,r32ui,rgba8 (hard: all; others: depth,r16f, or\n"
     "                      auto where the map is filtered; planar has its own: a mask, as auto,\n"
@@ -143,7 +144,7 @@ static int contacts(const struct gn_table *table, struct gn_err *err) {
 
 static bool fill(struct gn_table *table, const struct arguments *a, const char *folder) {
     *table = (struct gn_table){.folder = folder, .save = a->save, .progress = true};
-    return choose_scenes(table, a->scenes ? a->scenes : "0-38") && add_maps(table, a);
+    return choose_scenes(table, a->scenes ? a->scenes : "0-44") && add_maps(table, a);
 }
 
 /* A table for each kind of light; the faults of all. */
