@@ -130,7 +130,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
      * where a coarse mesh turns away from the light. */
     static const struct {
         float normal, slope, slope_max;
-    } factors[] = {{1.0f, 0.7f, 4.0f}, {0.3f, 1.45f, 5.6f}, {0.7f, 1.05f, 8.0f}};
+    } factors[] = {{1.0f, 0.7f, 4.0f}, {0.3f, 1.35f, 5.6f}, {0.7f, 1.05f, 8.0f}};
     const int kind = !view->perspective ? 0 : row->filter == GN_FILTER_BLUR ? 2 : 1;
     view->lookup.normal_offset = factors[kind].normal * view->lookup.bias_texels;
     view->lookup.slope_offset = factors[kind].slope * view->lookup.bias_texels;
