@@ -80,6 +80,10 @@ static const struct set {
     {LIST(mirror_scenes), NULL, 0, LIST(mirrors), 10},
 };
 enum { SETS = sizeof sets / sizeof *sets, CASTERS_MAX = 24 };
+_Static_assert(sizeof scenes == 24 * sizeof *scenes && sizeof lamps == 6 * sizeof *lamps &&
+                   sizeof coarse_scenes == 6 * sizeof *coarse_scenes &&
+                   sizeof coarse_lamps == 3 * sizeof *coarse_lamps,
+               "the table is part of the contract");
 
 struct spot { /* position of a caster on the ground, in units of the scene's scale */
     float x, z, radius;
@@ -362,6 +366,10 @@ static void add_lamp(struct build *b) {
 }
 
 static void add_light(struct build *b) {
+    if (b->lamp) {
+        add_lamp(b);
+        return;
+    }
     const struct scene *s = b->scene;
     bool spot = s->distance > 0, near = s->distance < 4 * s->size;
     struct gn_glb_node node = {.name = "light"};
@@ -441,10 +449,7 @@ static bool write_truth(const char *folder, int index, const struct set *set, in
     struct build b;
     init_build(&b, &around, (uint32_t)index + 1);
     b.lamp = lamp;
-    if (lamp)
-        add_lamp(&b);
-    else
-        add_light(&b);
+    add_light(&b);
     add_ground(&b);
     if (lamp) add_site(&b);
     for (int i = 0; i < set->casters; i++) add_caster(&b, set->order[i % set->order_count]);
@@ -461,10 +466,7 @@ static bool write_contact(const char *folder, const char *name, float distance,
     struct build b;
     init_build(&b, &scene, 1);
     b.lamp = lamp;
-    if (lamp)
-        add_lamp(&b);
-    else
-        add_light(&b);
+    add_light(&b);
     add_ground(&b);
     struct gn_shape shape;
     gn_shape_init(&shape, 0);

@@ -154,11 +154,11 @@ static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const ch
 /* The first scene is loaded before any other, since there is nothing to go back to. */
 void gn_show_reload(struct gn_show *s) {
     if (!s->reloads || s->reload.first) return;
-    const struct gn_show_wish wish = s->wish;
+    struct gn_show_wish *wish = &s->wish;
+    const char *file = wish->file[0] ? wish->file : NULL;
     s->reloads = false;
-    s->wish = (struct gn_show_wish){.cause = GN_RELOAD_ASKED};
-    const char *file = wish.file[0] ? wish.file : NULL;
-    begin_reload(s, wish.cause, wish.cause == GN_RELOAD_ASKED ? s->config.file : file);
+    begin_reload(s, wish->cause, wish->cause == GN_RELOAD_ASKED ? s->config.file : file);
+    wish->cause = GN_RELOAD_ASKED;
 }
 
 /* New content also replaces the scene of ctl scene. A reload that was asked for comes first. */

@@ -74,6 +74,22 @@ static void make_view_empty(struct gn_shadow_view *view) {
     for (uint32_t i = 0; i < view->map.cascade_count; i++) view->cascades[i].drawn.page_count = 0;
 }
 
+/* Normal offset and slope follow the width that the technique averages over; the factors are
+ * measured by `make truth`. A spot's and a point light's slope moves no lookup, and costs no width
+ * of a shadow: their bias is mostly slope, but that of blurred maps, which would leak where a
+ * coarse mesh turns away from the light. */
+static void set_bias(struct gn_shadow_view *view) {
+    struct gn_shadow_lookup *lookup = &view->lookup;
+    const bool is_blurred = gn_techniques[view->technique].filter == GN_FILTER_BLUR;
+    static const struct factors {
+        float normal, slope, slope_max;
+    } sun = {1.0f, 0.7f, 4.0f}, spot = {0.3f, 1.35f, 5.6f}, blurred = {0.7f, 1.05f, 8.0f};
+    const struct factors *f = !view->perspective ? &sun : is_blurred ? &blurred : &spot;
+    lookup->normal_offset = f->normal * lookup->bias_texels;
+    lookup->slope_offset = f->slope * lookup->bias_texels;
+    lookup->slope_max = f->slope_max;
+}
+
 bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                    const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
                    struct gn_shadow_view *view) {
@@ -124,17 +140,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     if (!found) make_view_empty(view);
     if (!found || row->on_plane) return found;
 
-    /* Normal offset and slope follow the width that the technique averages over; the factors are
-     * measured by `make truth`. A spot's and a point light's slope moves no lookup, and costs no
-     * width of a shadow: their bias is mostly slope, but that of blurred maps, which would leak
-     * where a coarse mesh turns away from the light. */
-    static const struct {
-        float normal, slope, slope_max;
-    } factors[] = {{1.0f, 0.7f, 4.0f}, {0.3f, 1.35f, 5.6f}, {0.7f, 1.05f, 8.0f}};
-    const int kind = !view->perspective ? 0 : row->filter == GN_FILTER_BLUR ? 2 : 1;
-    view->lookup.normal_offset = factors[kind].normal * view->lookup.bias_texels;
-    view->lookup.slope_offset = factors[kind].slope * view->lookup.bias_texels;
-    view->lookup.slope_max = factors[kind].slope_max;
+    set_bias(view);
     /* cascades have hashed theirs */
     for (uint32_t i = 0; i < view->map.tile_count && view->map.cascade_count == 0; i++)
         view->raster.tiles[i].content_hash =

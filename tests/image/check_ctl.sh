@@ -275,6 +275,15 @@ expect 0 'modes: pcf, ' status
 stop
 grep -q 'warning: kiosk.ini:15: press' kiosk.err || complain "a bad file at the start: $(cat kiosk.err)"
 
+# ---- before the first scene is there: its importer takes three seconds --------------------------
+mkdir slow && cp "$gnomon" slow/ && echo v > slow.obj
+printf '#!/bin/sh\nsleep 3\n: > "%s/imported"\nexec cat "%s"\n' "$PWD" "$PWD/other.glb" > slow/gnomon-import && chmod 755 slow/gnomon-import
+gnomon=$PWD/slow/gnomon start slow.obj
+[ ! -e imported ] || complain 'the first scene was there at once'
+expect 0 "scene: $PWD/sundial.glb" scene "$PWD/sundial.glb"
+[ -e imported ] || complain 'the first scene was not waited for'
+stop
+
 # ---- --check -------------------------------------------------------------------------------------
 # checks STATUS TEXT FILE
 checks() {
