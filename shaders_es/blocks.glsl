@@ -38,6 +38,7 @@
 #define BIAS_SLOPE_MAX AT_Z
 #define BIAS_LEAST AT_Z /* spot, point: least cosine that the slope offset is divided by */
 #define BIAS_FLAT 0.4f /* spot, point: 1 / cosine - this stands for the tangent */
+#define BIAS_FOUR AT_W /* spot: four times BIAS_NORMAL */
 #define BIAS_ULP AT_W /* one step of the encoding, metres; spots and points have it in CODE_OFFSET */
 #define SHADOW_PLACE 5    /* xyz: position of the light, world space */
 #define PLACE_CODE_SCALE AT_W /* code = distance * scale + CODE_OFFSET; depth maps of spots and points: scale / depth + CODE_OFFSET */

@@ -35,16 +35,16 @@ vec3 shadow_point_directional(const int slot, vec3 p, vec3 n, vec3 l, float spre
 // Spots and points: the normal offset does not depend on the direction of the light, so it may be computed per vertex, and the rest
 // is towards the light (shadow_code()), which moves no lookup. side: 1, or -1 on a surface seen from its unlit side.
 
-// Spot lights: x, y and w of the projection, linear in p. Where the light grazes a plane the limit of the slope leaves the normal
-// offset alone to hold the point over it, and .3 of the bias is less than half a texel: with |c| under .125 it grows to all of the
-// bias. On a coarse mesh the normal grazes and the face does not: there it stays.
+// Spot lights: x, y and w of the projection, linear in p. On a coarse mesh a face may graze where the normal does not: the normal
+// offset grows with the spread. Where the light grazes a plane the limit of the slope leaves this offset alone to hold the point over
+// it, and .3 of the bias is less than half a texel: with |c| under .125 it grows to all of the bias.
 vec3 shadow_point_spot(const int slot, vec3 p, vec3 n, float spread) {
     mat4 m = shadow_matrix(slot);
     float c = dot(n, normalize(SHADOW(slot, SHADOW_PLACE).xyz - p));
     float side = c >= 0.0 ? 1.0 : SHADOW_SPREAD[slot] && c > 0.25 - spread ? 0.0 : -1.0;
-    float grazing = max(3.33 - 18.6 * (abs(c) + spread), 1.0);
+    float quarters = max(0.8325 - 4.65 * (abs(c) + spread), 0.25 + spread);
     float depth = m[0].w * p.x + m[1].w * p.y + m[2].w * p.z + m[3].w;
-    return (m * vec4(p + n * (side * grazing * SHADOW(slot, SHADOW_BIAS).BIAS_NORMAL * depth), 1.0)).xyw;
+    return (m * vec4(p + n * (side * quarters * SHADOW(slot, SHADOW_BIAS).BIAS_FOUR * depth), 1.0)).xyw;
 }
 
 // Code of a receiver, moved towards the light. Across a texel of a plane the code changes by texel tan(n, l), for which 1 / cos -

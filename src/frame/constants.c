@@ -58,6 +58,7 @@ static void set_code(const struct gn_shadow_view *view, float (*c)[4]) {
     c[SHADOW_BIAS][BIAS_NORMAL] = lookup->normal_offset * lookup->texel;
     c[SHADOW_BIAS][BIAS_SLOPE] = slope;
     c[SHADOW_BIAS][BIAS_LEAST] = 1.0f / lookup->slope_max;
+    c[SHADOW_BIAS][BIAS_FOUR] = 4.0f * c[SHADOW_BIAS][BIAS_NORMAL];
     c[SHADOW_PLACE][PLACE_CODE_SCALE] = view->code.scale;
     c[SHADOW_CODE][CODE_OFFSET] = view->code.offset - view->code.ulp_m * view->code.scale;
     if (!is_deep(view) || view->empty) return;

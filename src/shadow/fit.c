@@ -76,14 +76,14 @@ static void make_view_empty(struct gn_shadow_view *view) {
 
 /* Normal offset and slope follow the width that the technique averages over; the factors are
  * measured by `make truth`. A spot's and a point light's slope moves no lookup, and costs no width
- * of a shadow: their bias is mostly slope, but that of blurred maps, which would leak where a
- * coarse mesh turns away from the light. */
+ * of a shadow: their bias is mostly slope, but that of blurred maps, whose contacts would be lit.
+ */
 static void set_bias(struct gn_shadow_view *view) {
     struct gn_shadow_lookup *lookup = &view->lookup;
     const bool is_blurred = gn_techniques[view->technique].filter == GN_FILTER_BLUR;
     static const struct factors {
         float normal, slope, slope_max;
-    } sun = {1.0f, 0.7f, 4.0f}, spot = {0.3f, 1.35f, 5.6f}, blurred = {0.7f, 1.05f, 8.0f};
+    } sun = {1.0f, 0.7f, 4.0f}, spot = {0.3f, 1.35f, 6.3f}, blurred = {0.7f, 1.05f, 8.0f};
     const struct factors *f = !view->perspective ? &sun : is_blurred ? &blurred : &spot;
     lookup->normal_offset = f->normal * lookup->bias_texels;
     lookup->slope_offset = f->slope * lookup->bias_texels;
