@@ -92,7 +92,7 @@ static struct gn_show *open_show(const char *scene) {
     static char config[200];
     write_config(scene);
     snprintf(config, sizeof config, "%s", in_folder("kiosk.ini"));
-    return help_show((const char *const[]){"--size", "64x64", "-c", config, NULL});
+    return help_show_begun((const char *const[]){"--size", "64x64", "-c", config, NULL});
 }
 
 static void frames(struct gn_show *show, unsigned count) {

@@ -87,7 +87,6 @@ static void a_turn_before_it_is_watched_is_seen(void **state) {
     write_config(path, "[kiosk]\ncaptions = no\n[mode \"Own\"]\nshadow = none\n");
     struct gn_show *show = help_show((const char *const[]){"--size", "64x64", "-c", path, NULL});
     until_mode_is(show, "Own");
-    while (show->reload.first) help_show_step(show);
     snprintf(config, sizeof config, "[kiosk]\ncontent = %s\n", top);
     write_config(path, config);
     show->reloads = true;

@@ -195,7 +195,7 @@ static struct gn_show *open_show(void) {
     static char config[200], control[200];
     snprintf(config, sizeof config, "%s/kiosk.ini", folder);
     snprintf(control, sizeof control, "%s/ctl", folder);
-    return help_show(
+    return help_show_begun(
         (const char *const[]){"--size", "64x64", "-c", config, "--socket", control, NULL});
 }
 

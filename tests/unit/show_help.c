@@ -10,7 +10,7 @@
 
 enum { ARGUMENTS_MAX = 32 };
 
-struct gn_show *help_show(const char *const more[]) {
+struct gn_show *help_show_begun(const char *const more[]) {
     static struct gn_warnings warnings;
     struct gn_options options;
     struct gn_err err = {0};
@@ -30,6 +30,12 @@ struct gn_show *help_show(const char *const more[]) {
     gn_options_finish(&options);
     if (!show) fail_msg("%s", err.text);
     gn_part_close(&show->parts, GN_PART_health); /* its readings end steps between frames */
+    return show;
+}
+
+struct gn_show *help_show(const char *const more[]) {
+    struct gn_show *show = help_show_begun(more);
+    while (show->reload.first) help_show_step(show);
     return show;
 }
 
