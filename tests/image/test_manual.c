@@ -126,7 +126,7 @@ static void test_no_bias_is_acne_and_a_large_one_a_gap(void **state) {
         const struct gn_frame_opts opts = opts_of(technique);
         const struct gn_mask_score automatic = score_of("automatic", &opts),
                                    own = with_bias(technique, gn_techniques[technique].bias_texels),
-                                   none = with_bias(technique, 0), large = with_bias(technique, 8);
+                                   none = with_bias(technique, 0), large = with_bias(technique, 16);
         assert_true(own.wrong == automatic.wrong && own.darkness == automatic.darkness);
         assert_true(gn_mask_darkening(&none) > 20 * gn_mask_darkening(&automatic));
         assert_true(none.wrong > 2 * automatic.wrong);
