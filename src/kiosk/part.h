@@ -34,6 +34,8 @@ struct gn_part_host {
     /* Begins a reload since files have changed; turned: by the turn of the content's link. False:
      * not now. */
     bool (*renew)(struct gn_show *show, bool turned);
+    /* Reports a problem that the caption says, too. */
+    void (*report_error)(struct gn_show *show, enum gn_problem kind, const char *text);
     /* Files of scenes: of the one that is shown, of the one that the options want, and of one that
      * could not be shown; NULL and "" are none. */
     void (*scene_files)(const struct gn_show *show, const char *out_paths[3]);
@@ -102,6 +104,7 @@ struct gn_part {
     X(television)                                                                                  \
     X(health)                                                                                      \
     X(process)                                                                                     \
+    X(answers)                                                                                     \
     X(control)                                                                                     \
     X(content)                                                                                     \
     X(shaders)                                                                                     \

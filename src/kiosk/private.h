@@ -66,8 +66,7 @@ struct gn_show {
     struct gn_show_counts counts;
     struct gn_parts parts;
     struct gn_show_first first;
-    struct gn_show_control *control;  /* NULL: no control socket */
-    struct gn_screenshot *screenshot; /* NULL without control */
+    struct gn_screenshot *screenshot; /* that a request asks for; NULL: none did so far */
     bool ends, reloads, failed;
 };
 

@@ -32,6 +32,7 @@ static const struct trial {
     [GN_PART_television] = {"schedule", "off = cec\ncec_device = /dev/null", NULL},
     [GN_PART_health] = {.why = "it has no settings"},
     [GN_PART_process] = {.why = "it has no settings"},
+    [GN_PART_answers] = {.why = "it has no settings"},
     [GN_PART_control] = {.why = "[kiosk] socket counts from the next start on"},
     [GN_PART_content] = {"kiosk", "watch = yes", NULL},
     [GN_PART_shaders] = {"render", "shaders = shaders_es", NULL},

@@ -1,13 +1,24 @@
-/* The answers to requests over the control socket: actions, options, status, screenshots. */
+/* The answers to requests, whoever brings them: actions, options, status, screenshots. */
 #ifndef GN_KIOSK_CONTROL_ANSWER_H
 #define GN_KIOSK_CONTROL_ANSWER_H
 
-#include <stdbool.h>
-
-#include "core/err.h"
+#include "kiosk/control/request.h"
 
 struct gn_show;
-struct gn_show_control;
+
+/* What brings requests: a part of the kiosk with a row of its own (socket.c). Each request is
+ * answered or refused once, perhaps later, and lives until then; both take place between steps of
+ * the loop. A reply is a reference that is taken; NULL: there was no memory for it. */
+struct gn_transport {
+    void *self;
+    void (*answer)(void *self, const struct gn_request *request, json_t *reply);
+    void (*refuse)(void *self, const struct gn_request *request, const struct gn_err *why);
+};
+
+void gn_show_take_request(struct gn_show *show, const struct gn_transport *from,
+                          const struct gn_request *request);
+/* Its requests that wait are gone; they get no answer any more. */
+void gn_show_forget_requests(struct gn_show *show, const struct gn_transport *from);
 
 /* Answers the request for a reload; why not NULL: it failed, and nothing has changed. */
 void gn_show_answer_reload(struct gn_show *show, const struct gn_err *why);
