@@ -59,7 +59,7 @@ vec4 tangent_ws() {
 float normal_spread() {
     vec3 scale = WORLD_0.xyz * WORLD_0.xyz + WORLD_1.xyz * WORLD_1.xyz + WORLD_2.xyz * WORLD_2.xyz;
     float most = max(max(scale.x, scale.y), scale.z), least = min(min(scale.x, scale.y), scale.z);
-    return min(a_normal.w * inversesqrt(max(least / most, 1e-12)), 0.4);
+    return min(a_normal.w * sqrt(most / max(least, 1e-12 * most)), 0.4);
 }
 
 // Texture coordinates of a slot (SLOT_BASE ..); second: from TEXCOORD_1.
