@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-tangents truth benchmark benchmark-scenes gallery contact-sheet \
+.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-tangents truth swim benchmark benchmark-scenes gallery contact-sheet \
         lessons book readme options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
@@ -34,6 +34,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make check-tangents
 #:                 tangents against the reference algorithm, by npm
 #: make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too
+#: make swim       shadows that swim while the camera or the sun moves slowly, as a table
 #: make benchmark  the open benchmark (assets/benchmark): scenes, truths, the table of all techniques;
 #:                 make benchmark-scenes: the scenes only
 #: make readme     the table of techniques (src/shadow/README.md), measured
@@ -70,7 +71,7 @@ dist:
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
 MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
 TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-tangents,$(filter check check-% accept full,$(GOALS)))
-IN_test     := $(TABLED) check-modelviewer check-tangents truth benchmark benchmark-scenes gallery contact-sheet book readme
+IN_test     := $(TABLED) check-modelviewer check-tangents truth swim benchmark benchmark-scenes gallery contact-sheet book readme
 IN_board    := $(MACHINES)
 IN_board-arm64 := $(MACHINES)
 IN_gpus     := check-gpus accept full
@@ -361,6 +362,8 @@ contact-sheet: $(B)/tests/tool_sheet $(BIN)
 	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$< $(if $(CSV),--csv $(CSV))
+swim: $(B)/tests/tool_swim $(BIN)
+	$<
 # GN_UPDATE=1: writes the hashes of what was made
 benchmark-scenes: $(B)/tests/tool_benchmark $(O)/host/make_truth
 	BUILD=$(B) $< scenes assets/benchmark

@@ -1,7 +1,8 @@
-// Arbitrary output variables (visibility, distance, normal) of a pixel, as the bits of floats: xyz the value, w unused.
+// Arbitrary output variables (visibility, distance, normal, occlusion) of a pixel, as the bits of floats: xyz the value, w unused.
 #include "lib/surface.glsl"
 #include "lib/light.glsl"
 #include "lib/shadow_place.glsl"
+#include "lib/occlusion.glsl"
 
 layout(location = 0) out uvec4 o_bits;
 
@@ -26,8 +27,13 @@ void main() {
         value = vec3(seen);
     } else if (AOV == AOV_DISTANCE) {
         value = vec3(length(v_position - u_pass[PASS_EXPOSURE].yzw));
-    } else {
+    } else if (AOV == AOV_NORMAL) {
         value = surface_normal();
+    } else {
+        value = vec3(1.0);
+#ifdef WITH_OCCLUDED
+        value = vec3(min(occlusion_at(surface_normal()), 1.0));
+#endif
     }
     o_bits = floatBitsToUint(vec4(value, 1.0));
     surface_cut(surface_base());

@@ -74,10 +74,12 @@
 #define CASCADES_SPANS 5  /* per cascade: range of penumbra depth that its moments cover, from the nearest caster */
 #define CASCADE_FADE 0.1  /* width of the zone, which ends at the split, as a fraction of the distance of the split */
 #define PASS_ENVIRONMENT 118 /* 9: xyz: coefficients of diffuse radiance (lib/environment.glsl); then x, y: cosine and sine of the
-                                turn; a pass without an environment ends before */
+                                turn; a pass without an environment or a volume of occlusion ends before */
 #define ENVIRONMENT_TURN 9
-#define ENVIRONMENT_SIZE 10
-#define PASS_SIZE 128
+#define OCCLUSION_SCALE 10 /* xyz: from world space to coordinates of the volume of occlusion */
+#define OCCLUSION_ADD 11   /* xyz: what is added then */
+#define ENVIRONMENT_SIZE 12
+#define PASS_SIZE 130
 /* Filters of maps */
 #define FILTER_RECT 0     /* xy: lower left texel of the tile; zw: upper right texel, inclusive */
 #define FILTER_BLUR 1     /* x: half of the box width, texels; y: offset of the last texel from the centre; z: 1 / width */
@@ -85,7 +87,10 @@
 #define FILTER_TABLE 3    /* x: largest read offset from a lookup in the SAT, texels; y: column of the tile's first block sum */
 #define FILTER_CODE 4     /* code * x + y: 0..1 over the range that moments cover */
 #define FILTER_CONE 5     /* x: texels of a cone's radius per unit of code; y: how far a step reads, texels of the cone map */
-#define FILTER_CONSTANTS 6
+#define FILTER_FLOOR 6    /* x, y: shares of the light that occlusion and shadows can take; z: weight over what is there */
+#define FILTER_FLOOR_X 7  /* xyz: dot with (uv, 1): x over the floor's square, -1..1; w: visibility = code * w + FILTER_FLOOR_Z.w */
+#define FILTER_FLOOR_Z 8  /* xyz: the same for z */
+#define FILTER_CONSTANTS 9
 /* Summed-area tables (SAT) */
 #define TABLE_BLOCK 16    /* texels per block; rows and columns are summed within blocks, sums of whole blocks are added later */
 /* Fixed-point scale of moments 0..1: the sum over a square with half side `reach` texels fits into 32 bits */
@@ -110,6 +115,10 @@
 #define BACKDROP_RAYS 0   /* xyz of three, in the environment's frame: direction at the centre of NDC, per unit of x, of y */
 #define BACKDROP_LIGHT 3  /* x: factor on its radiance; y: level of the cube */
 #define BACKDROP_SIZE 4
+/* An unseen floor whose alpha is in a texture */
+#define FLOOR_PLACE 0     /* clip space: of u = v = 0, per u, per v */
+#define FLOOR_SHOWN 3     /* xy: least uv; zw: greatest */
+#define FLOOR_SIZE 4
 /* The last pass */
 #define ENCODE_BACKGROUND 0 /* rgb: linear */
 #define ENCODE_SIZE 1

@@ -61,6 +61,7 @@ float caught_shadow(vec3 light, vec3 open) {
 void main() {
     vec4 base = surface_base();
     surface_cut(base);
+    base.rgb = max(base.rgb, v_emissive.r); // 1: as if it were white
     vec3 smooth_normal = surface_normal();
     surface s = surface_make(base, smooth_normal);
     LAYERS_BEGIN(smooth_normal, s)
@@ -72,12 +73,14 @@ void main() {
 #else
 void main() {
     vec3 face = surface_face_normal();
+    if (METAL || COAT) surface_measure_spread();
     vec4 base = surface_base();
     if (!CUT_LAST) surface_cut(base);
     vec3 color = base.rgb, through = vec3(0.0);
     if (!UNLIT) {
         vec3 smooth_normal = surface_normal();
         surface s = surface_make(base, smooth_normal);
+        if (!ADDITIVE) s.open = surface_open(s, base.rgb);
         LAYERS_BEGIN(smooth_normal, s)
         vec3 light = ADDITIVE ? vec3(0.0) : surface_ambient(s, base.rgb);
         vec3 open = CATCHER ? surface_irradiance(s) * environment_scale() : light; // without shadows, of a catcher
@@ -85,7 +88,7 @@ void main() {
         EACH_SHADOWED_LIGHT(ADD_SHADOWED_LIGHT)
         EACH_OPEN_LIGHT(ADD_OPEN_LIGHT)
 #ifdef WITH_ENVIRONMENT_DIFFUSE // what full roughness reflects at an IOR of 1.5
-        if (!SPECULAR) base.rgb = base.rgb * 0.9836 + 0.0164;
+        if (!SPECULAR) base.rgb = base.rgb * 0.981 + 0.019;
 #endif
         color = SPECULAR ? light : light * base.rgb;
         if (EMISSIVE) color += surface_emission();

@@ -36,6 +36,9 @@ out vec3 v_irradiance;
 out vec3 v_irradiance_odd;
 #endif
 #endif
+#ifdef WITH_OCCLUDED
+out vec3 v_cell; // in the volume of occlusion, 0..1
+#endif
 
 #define PLACE_SHADOW(slot) \
     v_shadow[slot] = SHADOW_LINEAR[slot] \
@@ -55,6 +58,9 @@ void main() {
     vec4 tangent = tangent_ws();
     v_tangent = tangent.xyz;
     v_bitangent_sign = tangent.w;
+#endif
+#ifdef WITH_OCCLUDED
+    v_cell = p * u_pass[PASS_ENVIRONMENT + OCCLUSION_SCALE].xyz + u_pass[PASS_ENVIRONMENT + OCCLUSION_ADD].xyz;
 #endif
     float spread = normal_spread();
 #ifdef WITH_SPREAD

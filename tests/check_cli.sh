@@ -124,6 +124,41 @@ expect 3 "b.png differ: " compare "$folder/a.png" "$folder/b.png" --diff "$folde
 expect 0 '' compare "$folder/a.png" "$folder/b.png" --share 100 --json --diff "$folder/d.png"
 grep -q '"psnr_db": [0-9]' "$folder/out" || complain "compare --json: $(cat "$folder/out")"
 expect 3 'is 32x24, ' compare "$folder/d.png" assets/sundial.png
+for technique in hard pcf5; do
+    expect 0 '' render --size 160x120 --aov visibility --map 64 --shadow $technique -o "$folder/$technique.pfm"
+done
+for aov in distance normal; do
+    expect 0 '' render --size 160x120 --aov $aov -o "$folder/$aov.pfm"
+done
+# tear PART FILE..: its tear against pcf5, as it is printed
+tear() {
+    part=$1
+    shift
+    expect 0 '' compare --shadows --share 100 "$@" "$folder/pcf5.pfm"
+    tear=$(awk -v part="$part" '$1 == part { print $2 }' "$folder/out")
+}
+tear all "$folder/pcf5.pfm"
+[ "$tear" = 0.0000 ] || complain "the same shadows: $(cat "$folder/out")"
+tear all "$folder/hard.pfm"
+all=$tear
+awk "BEGIN { exit !($all > .1) }" || complain "hard shadows: $(cat "$folder/out")"
+tear surfaces --distance "$folder/distance.pfm" "$folder/hard.pfm"
+[ "$tear" != "$all" ] || complain "edges of depth do not count: $(cat "$folder/out")"
+by_depth=$tear
+tear surfaces --distance "$folder/distance.pfm" --normal "$folder/normal.pfm" "$folder/hard.pfm"
+[ "$tear" != "$by_depth" ] || complain "edges of normal do not count: $(cat "$folder/out")"
+edges=$tear
+tear surfaces --distance "$folder/distance.pfm" --normal "$folder/normal.pfm" --to-light 1,.2,0 "$folder/hard.pfm"
+[ "$tear" != "$edges" ] || complain "the direction does not count: $(cat "$folder/out")"
+tear floor --distance "$folder/distance.pfm" "$folder/hard.pfm"
+[ "$tear" = - ] || complain "a floor: $(cat "$folder/out")"
+expect 0 '' compare --shadows --share 100 --json "$folder/hard.pfm" "$folder/pcf5.pfm"
+grep -q '"tear_percent_px": [0-9]' "$folder/out" || complain "compare --shadows --json: $(cat "$folder/out")"
+expect 1 'a.png is 32x24, the pictures are 160x120' compare --shadows --normal "$folder/a.png" "$folder/hard.pfm" "$folder/pcf5.pfm"
+expect 2 '--to-light: add --shadows' compare --to-light 0,1,0 a.png b.png
+expect 2 '--distance, --to-light: add --shadows' compare --distance d.pfm a.png b.png
+expect 2 'add --normal FILE' compare --shadows --to-light 0,1,0 a.png b.png
+expect 2 'is no direction' compare --shadows --normal n.pfm --to-light 0,0,0 a.png b.png
 expect 2 'compare: expected two pictures' compare "$folder/a.png"
 expect 2 'compare: unexpected argument' compare a.png b.png c.png
 expect 2 'lesson: expected list, all or the name of a lesson' lesson

@@ -19,6 +19,19 @@ for page in $pages; do
 done > "$folder/missing"
 [ ! -s "$folder/missing" ] || complain "$(cat "$folder/missing")"
 
+# ---- the worked examples of CONTRIBUTING.md -----------------------------------------------------
+# example WHAT NAME FOLDERS [FILE]: its steps name the files of these folders that have the name, and this one
+example() {
+    awk -v from="^The $1" '$0 ~ from { on = 1; next } on && /^(The|##)/ { exit } on' CONTRIBUTING.md |
+        grep -oE '`(src|shaders_es|tests)/[a-z_/0-9]+\.(c|h|sh|glsl)`' | tr -d '`' | sort -u > "$folder/named"
+    # shellcheck disable=SC2086
+    { grep -rlw "$2" $3 --include='*.[ch]' --include='*.sh' --exclude=check_docs.sh; echo "$4" | grep .; } |
+        sort -u > "$folder/touched"
+    cmp -s "$folder/named" "$folder/touched" || complain "CONTRIBUTING.md, $1: $(diff "$folder/named" "$folder/touched")"
+}
+example 'technique `box5`' box5 'src tests' shaders_es/shadow/box5.glsl
+example 'option `--taps-fixed`' taps_fixed src ''
+
 # ---- options and goals ---------------------------------------------------------------------------
 for command in '' $(commands_of); do
     # shellcheck disable=SC2086

@@ -69,6 +69,10 @@ picture() {
 small() { picture 320x180 png "$@"; }
 # all that the program has, as its refusal of another one lists them
 techniques=$("$gnomon" render --shadow '?' 2>&1 | sed -n 's/.* is not one of //p' | tr -d ,)
+# and those whose maps are filtered: doctor names another format than that of a map
+filtered=$("$gnomon" doctor --backend egl 2> /dev/null | sed -n 's/^ *chosen *//p' | tr ' ' '\n' |
+    sed -nE '/:(depth|r32ui|r16f|r16f-raw|rgba8|mask)$/!s/:.*//p' | tr '\n' ' ')
+filtered=${filtered:-$techniques}
 
 head_lines() {
     echo "# $(uname -sm), LP_NUM_THREADS=$LP_NUM_THREADS"
@@ -105,7 +109,7 @@ default_scene() {
         for shadow in hard pcf; do small --shadow $shadow --map-format $format; done
     done
     for format in rg32ui rgba16ui rgba16f rgba32f-bits rgba32f-share rgba32ui; do
-        for shadow in vsm evsm msm; do small --shadow $shadow --map-format $format; done
+        for shadow in $filtered; do small --shadow $shadow --map-format $format; done
     done
 }
 
@@ -127,7 +131,7 @@ options() {
 
 other_scenes() {
     for scene in s1.glb s2.glb lamp.glb stack.glb; do
-        for shadow in none hard pcf pcss vsm msm smsm planar; do small $scene --shadow $shadow; done
+        for shadow in $techniques; do small $scene --shadow $shadow; done
         small $scene --shadow pcf --aov visibility
         output "inspect $scene" "$gnomon" inspect --json $scene
     done

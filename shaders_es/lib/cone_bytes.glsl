@@ -1,4 +1,4 @@
-//@ names cone_store cone_fetch cone_at
+//@ names cone_store cone_fetch cone_at cone_depth
 // Cone map as the bytes of two half floats, low byte first. What it holds: shadow/cone.glsl.
 #include "lib/cone_linear.glsl"
 #undef MOMENTS_SAMPLER
@@ -21,3 +21,6 @@ vec2 cone_at(MOMENTS_SAMPLER cones, vec2 uv, vec4 size) {
     ivec4 at = cone_corners(uv, size);
     return cone_mix(cone_fetch(cones, at.xy), cone_fetch(cones, at.zy), cone_fetch(cones, at.xw), cone_fetch(cones, at.zw), uv, size);
 }
+
+// As in lib/cone_16f.glsl, without mipmaps.
+float cone_depth(MOMENTS_SAMPLER cones, vec2 uv, vec2 cone, float texels) { return cone.y; }

@@ -10,9 +10,8 @@ mat2 noise_turn() {
     return mat2(c, s, -s, c);
 }
 
-// Cosine and sine of a rotation by 0..90 degrees, without either function: for patterns that a quarter turn maps to themselves.
-vec2 noise_quarter() {
-    if (!TAPS_TURN) return vec2(1.0, 0.0);
-    float u = noise_gradient(), w = 1.0 / (1.0 + u * u);
-    return vec2(w - u * u * w, 2.0 * u * w);
+// The same value for each two by two pixels. pair: where in them the pixel is, 1/4 or 3/4.
+float noise_quad(vec2 pair) {
+    if (!TAPS_TURN) return 0.47;
+    return fract(52.9829189 * fract(dot(0.5 * gl_FragCoord.xy - pair, vec2(0.06711056, 0.00583715))));
 }

@@ -9,6 +9,7 @@
 #include "lib/surface.glsl"
 #include "lib/light.glsl"
 #include "lib/environment.glsl"
+#include "lib/occlusion.glsl"
 
 #ifdef WITH_NORMAL_TEXTURE
 in vec3 v_tangent; // unit, times the scale of the normal map
@@ -24,6 +25,17 @@ in vec3 v_irradiance;
 in vec3 v_irradiance_odd; // negated on the back
 #endif
 #endif
+
+// What is added to the square of alpha, because the normals of the mesh differ within a pixel: without that, highlights of bevels and
+// seams come and go from pixel to pixel. Tokuyoshi, Kaplanyan, "Improved Geometric Specular Antialiasing" (2019), over half a pixel.
+// Of metal and coats, which show highlights most.
+float surface_spread = 0.0;
+
+// Takes derivatives: not behind a branch or a discard.
+void surface_measure_spread() {
+    vec3 dx = dFdx(v_normal), dy = dFdy(v_normal);
+    surface_spread = min(0.5 * (dot(dx, dx) + dot(dy, dy)), 0.18);
+}
 
 // x: roughness, y: metalness
 vec2 surface_roughness() { return v_surface.xy * TEXEL_ROUGHNESS.gb; }
@@ -58,8 +70,10 @@ struct surface {
     vec3 smooth_normal; // of the mesh, towards the viewer, not of unit length; with a normal map
     float exponent;
     vec3 f0; // with ENVIRONMENT or TRANSMISSION: environment_facing_share()
-    float roughness, alpha;
+    float roughness;
+    float lobe, alpha; // roughness of what is reflected, within a pixel, and its square
     vec3 through; // factors on what is behind
+    float open;   // share of the ambient light that arrives: surface_open()
 };
 
 surface surface_make(vec4 base, vec3 smooth_normal) {
@@ -68,19 +82,24 @@ surface surface_make(vec4 base, vec3 smooth_normal) {
     s.smooth_normal = DOUBLE_SIDED && !gl_FrontFacing ? -v_normal : v_normal;
     s.diffuse = base.rgb;
     s.through = vec3(0.0);
+    s.open = 1.0;
     if (SPECULAR) {
         vec2 rm = surface_roughness();
-        float alpha = max(rm.x * rm.x, 0.002);
-        s.exponent = 2.0 / (alpha * alpha) - 2.0;
+        float given = rm.x * rm.x, alpha = given;
+        s.roughness = s.lobe = rm.x;
+        if (METAL) {
+            alpha = sqrt(min(alpha * alpha + surface_spread, 1.0));
+            s.lobe = sqrt(alpha);
+        }
+        s.alpha = max(alpha, 0.002);
+        s.exponent = 2.0 / (s.alpha * s.alpha) - 2.0;
         vec3 f0 = surface_reflectance();
         s.f0 = METAL ? mix(f0, base.rgb, rm.y) : f0;
-        s.roughness = rm.x;
-        s.alpha = alpha;
 #ifdef WITH_ENVIRONMENT
         if (METAL) s.f0 = base.rgb * rm.y + (f0 - f0 * rm.y);
 #endif
 #if defined WITH_ENVIRONMENT || defined WITH_TRANSMISSION
-        s.f0 = environment_facing_share(s.f0, alpha);
+        s.f0 = environment_facing_share(s.f0, given);
 #endif
         s.specular = s.f0 * (0.125 * s.exponent + 1.0);
         if (METAL) s.diffuse = base.rgb * (1.0 - rm.y);
@@ -118,20 +137,31 @@ vec3 surface_irradiance(surface s) {
 // Factor on diffuse light of the environment; the hemispheres have none.
 float environment_scale() { return ENVIRONMENT_DIFFUSE && ENVIRONMENT_SCALED ? PASS(PASS_SKY).w : 1.0; }
 
-// Share of the ambient light that arrives.
-float surface_open() {
+// Share of the ambient light that arrives; base: of the surface.
+float surface_open(surface s, vec3 base) {
     float open = environment_scale();
+#ifdef WITH_OCCLUDED
+    // The picture is of details, the volume of the whole: the smaller counts. What is in the way is as bright as this surface, and as
+    // open: the sum of all bounces, of the mean colour, after Jimenez and others, "Practical Realtime Strategies for Accurate Indirect
+    // Occlusion" (2016), who fit it per channel.
+    float seen = occlusion_at(NORMAL_TEXTURE ? s.smooth_normal : s.normal);
+#ifdef WITH_OCCLUSION_TEXTURE
+    seen = min(seen, 1.0 + v_surface.z * (TEXEL_OCCLUSION.r - 1.0));
+#endif
+    return open * seen / (1.0 - (base.r + base.g + base.b) * (0.3333 - 0.3333 * seen));
+#else
 #ifdef WITH_OCCLUSION_TEXTURE
     if (CATCHER) open *= texture(u_texture_occlusion, (v_position.xz - v_surface.xy) * v_surface.w + 0.5).r;
     else open *= 1.0 + v_surface.z * (TEXEL_OCCLUSION.r - 1.0);
 #endif
     return open;
+#endif
 }
 
 // Radiance that the environment, in steps of roughness, sends from a direction in its own frame; with ENVIRONMENT.
-vec3 surface_mirrored(vec3 along, float roughness) {
+vec3 surface_mirrored(surface s, vec3 along, float roughness) {
 #ifdef WITH_ENVIRONMENT
-    float scale = surface_open() * (ENVIRONMENT_SCALED && !ENVIRONMENT_DIFFUSE ? PASS(PASS_SKY).w : 1.0);
+    float scale = s.open * (ENVIRONMENT_SCALED && !ENVIRONMENT_DIFFUSE ? PASS(PASS_SKY).w : 1.0);
     return textureLod(u_environment, along, roughness * ENVIRONMENT_ROUGHEST).rgb * scale;
 #else
     return vec3(0.0);
@@ -141,16 +171,15 @@ vec3 surface_mirrored(vec3 along, float roughness) {
 // Reflected radiance of the ambient light. Without SPECULAR it lacks the albedo.
 vec3 surface_ambient(surface s, vec3 base) {
     vec3 ambient = surface_irradiance(s);
-    float open = surface_open();
 #ifdef WITH_ENVIRONMENT
     float n_v = dot(s.normal, s.to_eye);
-    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.roughness);
+    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.lobe);
     vec3 share = environment_share(s.f0, s.roughness, n_v); // seen from behind, below 0: as at a grazing angle
-    vec3 reflected = textureLod(u_environment, along, s.roughness * ENVIRONMENT_ROUGHEST).rgb;
-    if (ENVIRONMENT_DIFFUSE) return mix(s.diffuse * ambient, reflected, share) * open;
-    return s.diffuse * ambient * open + reflected * (share * (ENVIRONMENT_SCALED ? PASS(PASS_SKY).w * open : open));
+    vec3 reflected = textureLod(u_environment, along, s.lobe * ENVIRONMENT_ROUGHEST).rgb;
+    if (ENVIRONMENT_DIFFUSE) return mix(s.diffuse * ambient, reflected, share) * s.open;
+    return s.diffuse * ambient * s.open + reflected * (share * (ENVIRONMENT_SCALED ? PASS(PASS_SKY).w * s.open : s.open));
 #else
-    ambient *= open;
+    ambient *= s.open;
     return SPECULAR ? ambient * base : ambient;
 #endif
 }

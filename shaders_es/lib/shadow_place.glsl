@@ -109,7 +109,7 @@ shadow_place shadow_place_of(const int slot, const int type, const bool radial, 
     float over = type == LIGHT_DIRECTIONAL ? c : c * light.distance_m;
     s.horizon = shadow_horizon(over * SHADOW(slot, SHADOW_SLOPE + 1).SLOPE_HORIZON);
     s.window = vec4(0.0, 0.0, s.size.xy);
-    s.tangent = s.aslant = vec2(0.0);
+    s.tangent = s.aslant = s.beside = vec2(0.0);
     if (SHADOW_LINEAR[slot]) {
         s.at = from_vertex;
         s.slope = shadow_slope_directional(slot, plane, l);

@@ -212,7 +212,9 @@ static void print_check(const struct check *c, const struct gn_options *o) {
         }
         if (count) putchar('\n');
     }
-    if (o->mode_count == 0) puts("modes: none in the file; one per technique");
+    if (o->mode_count == 0)
+        printf("modes: none in the file; %s\n",
+               gn_options_leave_modes(o) ? "what the scene offers" : "one per technique");
     for (int i = 0; i < o->mode_count; i++) {
         const struct gn_section *mode = &o->modes[i];
         printf("mode \"%s\": ", mode->name);

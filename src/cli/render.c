@@ -79,7 +79,8 @@ static bool write_picture(struct render *r, const struct gn_plan *plan, const ch
     const size_t pixels = (size_t)w * (size_t)h;
     if (r->map) return write_map(r, plan, path, err);
     /* as the rays have it: at outlines the rasteriser's choice of surface is not in it */
-    if (plan->aov == GN_AOV_VISIBILITY && r->stage.truth.visibility)
+    if ((plan->aov == GN_AOV_VISIBILITY || plan->aov == GN_AOV_OCCLUSION) &&
+        r->stage.truth.visibility)
         return write_grey(r, path, r->stage.truth.visibility, w, h, err);
     if (plan->aov == GN_AOV_COLOR && r->format == GN_PICTURE_PNG)
         return gn_gl_read_rgba8(r->stage.gl, r->rgba, err) &&

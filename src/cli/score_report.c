@@ -38,6 +38,12 @@ static int make_groups(const struct gn_score_report *report, struct group out[GR
 }
 
 static bool is_percent(int measure) { return measure < GN_BENCHMARK_PENUMBRA; }
+static bool is_slope(int measure) { return measure >= GN_BENCHMARK_TEAR; }
+
+/* After a measure's name, in files. */
+static const char *unit_of(int measure) {
+    return is_slope(measure) ? "_percent_px" : is_percent(measure) ? "_percent" : "";
+}
 
 /* ---- text ---- */
 
@@ -52,7 +58,7 @@ static void print_text_row(const struct gn_benchmark_score *score, FILE *to) {
 static void print_text_head(const char *first, FILE *to) {
     fprintf(to, "%-24s", first);
     for (int m = 0; m < GN_BENCHMARK_MEASURE_COUNT; m++)
-        fprintf(to, " %9s", gn_benchmark_measures[m]);
+        fprintf(to, is_slope(m) ? " %6s/px" : " %9s", gn_benchmark_measures[m]);
 }
 
 static void print_text(const struct gn_score_report *report, const struct group *groups, int count,
@@ -72,8 +78,8 @@ static void print_text(const struct gn_score_report *report, const struct group 
                 groups[g].mean.of[row->merit]);
     }
     fprintf(to,
-            "\nacne to wrong in per cent; penumbra to grain: errors of visibility, 0 to 1; safely "
-            "lit is %.4g texels from edges\n",
+            "\nacne to wrong in per cent; penumbra to grain: errors of visibility, 0 to 1; tear/px "
+            "and grain/px: per cent per pixel; safely lit is %.4g texels from edges\n",
             report->reach_texels);
 }
 
@@ -96,7 +102,7 @@ static void print_csv(const struct gn_score_report *report, const struct group *
                       FILE *to) {
     fputs("scene,class,light,pictures,merit,merit_value", to);
     for (int m = 0; m < GN_BENCHMARK_MEASURE_COUNT; m++)
-        fprintf(to, ",%s%s", gn_benchmark_measures[m], is_percent(m) ? "_percent" : "");
+        fprintf(to, ",%s%s", gn_benchmark_measures[m], unit_of(m));
     fputc('\n', to);
     for (size_t i = 0; i < report->row_count; i++) {
         const struct gn_score_row *row = &report->rows[i];
@@ -118,8 +124,7 @@ static json_t *make_json_row(enum gn_benchmark_class kind, const char *light,
     for (int m = 0; object && m < GN_BENCHMARK_MEASURE_COUNT; m++) {
         char key[40];
         if (isnan(score->of[m])) continue;
-        snprintf(key, sizeof key, "%s%s", gn_benchmark_measures[m],
-                 is_percent(m) ? "_percent" : "");
+        snprintf(key, sizeof key, "%s%s", gn_benchmark_measures[m], unit_of(m));
         json_object_set_new(object, key, gn_json_make_number(score->of[m]));
     }
     return object;

@@ -5,4 +5,9 @@
 float gn_srgb_decode(float code);
 float gn_srgb_encode(float linear); /* clamped to 0 to 1 */
 
+/* Of linear red, green and blue (Rec. 709). */
+static inline float gn_luminance(const float c[3]) {
+    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+}
+
 #endif

@@ -3,6 +3,7 @@
 #ifndef GN_ENVIRONMENT_PRIVATE_H
 #define GN_ENVIRONMENT_PRIVATE_H
 
+#include "core/srgb.h"
 #include "environment/environment.h"
 
 enum {
@@ -23,9 +24,6 @@ static inline struct gn_sphere_node *gn_sphere_node(const struct gn_sphere *sphe
                                                     int face, int x, int y) {
     const int side = 1 << level;
     return &sphere->levels[level][(face * side + y) * side + x];
-}
-static inline float gn_luminance(const float c[3]) {
-    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
 }
 static inline float gn_dot(const float a[3], const float b[3]) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

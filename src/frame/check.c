@@ -51,8 +51,8 @@ static const char *check_key(const struct gn_program_key *key) {
     REQUIRE(key->shadow_count <= GN_SHADOWS_MAX);
     REQUIRE(key->shadow_count <= key->light_count);
     REQUIRE(key->encoding < GN_ENCODING_COUNT);
-    REQUIRE(key->technique < GN_TECHNIQUE_COUNT && key->step < GN_STEP_COUNT);
-    REQUIRE(key->moments < GN_MOMENTS_COUNT);
+    REQUIRE(key->technique < GN_TECHNIQUE_ALL && key->step < GN_STEP_COUNT);
+    REQUIRE(key->moments < GN_MOMENTS_ALL);
     REQUIRE((key->kind == GN_PROGRAM_FILTER) == (key->moments != GN_MOMENTS_NONE));
     REQUIRE(key->receiver <= GN_RECEIVES_ALL);
     REQUIRE((key->features & ~GN_FEATURES_ALL) == 0);
@@ -182,7 +182,7 @@ static const char *check_given(const struct gn_plan *plan, const struct gn_pass 
 static const char *check_filter(const struct gn_plan *plan, const struct gn_pass *pass) {
     const struct gn_target *to = &pass->target;
     REQUIRE(to->kind == GN_TARGET_MOMENTS && to->index < GN_FILTER_TEXTURES_MAX);
-    REQUIRE(to->moments != GN_MOMENTS_NONE && to->moments < GN_MOMENTS_COUNT);
+    REQUIRE(to->moments != GN_MOMENTS_NONE && to->moments < GN_MOMENTS_ALL);
     REQUIRE(to->slot < plan->shadow_count && plan->shadows[to->slot].moments == to->moments);
     REQUIRE(!pass->content.completes || to->index == 0);
     REQUIRE(pass->draw_count == 1 && pass->clear.area == GN_CLEAR_NOTHING && !pass->depth_write);

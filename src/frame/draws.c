@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/srgb.h"
 #include "frame/private.h"
 
 static enum gn_cast_faces faces_of(const struct gn_scene *scene, uint32_t item,
@@ -40,13 +41,13 @@ static bool casts_by_middle(const struct gn_scene *scene, const struct gn_pose *
            !gn_techniques[view->technique].on_plane && has_two_sides(scene, pose, item, view);
 }
 
-/* How far behind the near plane a box lies: its middle, or its far side. */
-static float depth_of(const struct gn_frame *frame, const struct gn_box *box, bool far_side) {
+/* How far behind the near plane a box lies: its near side (-1), its middle (0) or its far side. */
+static float depth_of(const struct gn_frame *frame, const struct gn_box *box, int side) {
     const float *near_plane = frame->eye.planes[4];
     float depth = near_plane[3];
     for (int k = 0; k < 3; k++) {
         depth += near_plane[k] * 0.5f * (box->min[k] + box->max[k]);
-        if (far_side) depth += fabsf(near_plane[k]) * 0.5f * (box->max[k] - box->min[k]);
+        depth += (float)side * fabsf(near_plane[k]) * 0.5f * (box->max[k] - box->min[k]);
     }
     return depth;
 }
@@ -71,10 +72,12 @@ static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
         return false;
     }
     if (!gn_material_is_blended(m)) return true;
-    if (m->shadow_catcher && s->opts->debug.aov == GN_AOV_VISIBILITY) return true;
-    if (s->opts->debug.aov == GN_AOV_COLOR) /* a shadow catcher is behind all that is blended */
+    if (m->shadow_catcher && s->opts->debug.aov == GN_AOV_VISIBILITY)
+        return !gn_key_is_floor(frame, item);
+    /* a shadow catcher is behind all that is blended; what is in a vessel behind its near side */
+    if (s->opts->debug.aov == GN_AOV_COLOR)
         GN_LIST_PUSH(&frame->items.blended) =
-            (struct gn_placed){m->shadow_catcher ? INFINITY : depth_of(frame, box, false), item};
+            (struct gn_placed){m->shadow_catcher ? INFINITY : depth_of(frame, box, -1), item};
     return opaque && s->opts->debug.aov == GN_AOV_COLOR;
 }
 
@@ -82,9 +85,8 @@ static bool takes_item(struct gn_frame *frame, const struct gn_pose *pose,
  * says where, by the shader, from surface.z. */
 static void set_transmitted(const struct gn_material *m, struct gn_instance *instance) {
     if (!gn_material_is_transmissive(m)) return;
-    const float *c = m->base_color;
     const float through = m->factors[GN_FACTOR_TRANSMISSION] * (1.0f - m->metalness) *
-                          glm_clamp_zo(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);
+                          glm_clamp_zo(gn_luminance(m->base_color));
     if (m->alpha == GN_ALPHA_OPAQUE) instance->base_color[3] = 1.0f;
     if (m->textures[GN_TEXTURE_TRANSMISSION].texture >= 0)
         instance->surface[2] = through;
@@ -92,13 +94,16 @@ static void set_transmitted(const struct gn_material *m, struct gn_instance *ins
         instance->base_color[3] *= 1.0f - through;
 }
 
-/* In place of a matrix: where its vertices find what poses them (lib/deform.glsl). */
-static void place_deformed(const struct gn_scene *scene, const struct gn_pose *pose,
-                           const struct gn_item *item, struct gn_instance *instance) {
+/* In place of a matrix: where its vertices find what poses them (lib/deform.glsl), and in the last
+ * row, for overdraw.c, the item. */
+static void place_deformed(const struct gn_scene *scene, const struct gn_pose *pose, uint32_t index,
+                           struct gn_instance *instance) {
+    const struct gn_item *item = &scene->items[index];
     const struct gn_geometry *geometry = &scene->geometries[item->geometry];
     memset(instance->world, 0, sizeof instance->world);
     instance->world[0][0] = item->rows.x;
     instance->world[0][1] = item->rows.y;
+    memcpy(&instance->world[2][0], &index, sizeof index);
     if (item->morph < 0) return;
     const struct gn_targets *targets = geometry->targets;
     const struct gn_strip *list = &scene->deformation.morphs[item->morph].list;
@@ -110,40 +115,14 @@ static void place_deformed(const struct gn_scene *scene, const struct gn_pose *p
     instance->world[1][3] = (float)targets->parts;
 }
 
-void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
-                        const struct gn_selection *s, uint32_t item, bool *open) {
+static void set_instance(const struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_selection *s, uint32_t item,
+                         struct gn_instance *instance) {
     const struct gn_item *what = &frame->scene->items[item];
-    bool mirrored = pose->items[item].mirrored != s->mirrored;
     const struct gn_material *m = &pose->materials[what->material];
     const bool in_parts = !s->casts && gn_material_has_opaque_texels(m);
-    enum gn_cull cull = m->double_sided ? s->cull : GN_CULL_BACK;
-    if (s->casts) cull = s->backs ? GN_CULL_FRONT : caster_cull(frame->scene, pose, item, s->view);
-    if (*open) { /* an instance of the last draw? */
-        const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
-        *open = last->mirrored == mirrored && last->cull == cull &&
-                (s->casts || gn_material_has_opaque_texels(
-                                 &frame->scene->materials[last->material]) == in_parts);
-    }
-    if (!*open) {
-        struct gn_program_key key =
-            s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
-        if (s->casts && !s->backs && casts_by_middle(frame->scene, pose, item, s->view))
-            gn_key_add_middle(s->view, &key);
-        if (in_parts) gn_key_take_part(s->blends, &key);
-        if (s->tints) key = gn_key_tint(&key);
-        if (s->group) key = gn_key_additive(frame, &key, s->group, s->opts);
-        uint32_t program = gn_frame_program(frame, &key);
-        GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,
-                                                       .geometry = what->geometry,
-                                                       .material = what->material,
-                                                       .first_instance = frame->instances.count,
-                                                       .cull = (uint8_t)cull,
-                                                       .mirrored = mirrored};
-        *open = true;
-    }
-    struct gn_instance *instance = &GN_LIST_PUSH(&frame->instances);
     if (gn_item_is_deformed(what))
-        place_deformed(frame->scene, pose, what, instance);
+        place_deformed(frame->scene, pose, item, instance);
     else
         for (int r = 0; r < 3; r++)
             for (int c = 0; c < 4; c++)
@@ -162,10 +141,48 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                           1.0f / (GN_FLOOR_OCCLUDED * world[0][0])},
                sizeof instance->surface);
     }
-    memcpy(instance->emissive, m->emissive, sizeof m->emissive);
+    for (int k = 0; k < 3; k++)
+        instance->emissive[k] = !s->tints ? m->emissive[k] : s->colorless ? 1.0f : 0.0f;
     instance->emissive[3] = gn_shadow_item_casts(frame->scene, item) ? 1.0f : 0.0f;
+}
+
+void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_selection *s, uint32_t item, bool *open) {
+    const struct gn_item *what = &frame->scene->items[item];
+    bool mirrored = pose->items[item].mirrored != s->mirrored;
+    const struct gn_material *m = &pose->materials[what->material];
+    const bool in_parts = !s->casts && gn_material_has_opaque_texels(m);
+    enum gn_cull cull = m->double_sided ? s->cull : GN_CULL_BACK;
+    if (s->casts) cull = s->backs ? GN_CULL_FRONT : caster_cull(frame->scene, pose, item, s->view);
+    const bool occluded = frame->plan.occlusion.on && gn_item_is_occluded(frame->scene, what);
+    if (*open) { /* an instance of the last draw? */
+        const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
+        *open = last->mirrored == mirrored && last->cull == cull &&
+                (s->casts || frame->items.occluded == occluded) &&
+                (s->casts || gn_material_has_opaque_texels(
+                                 &frame->scene->materials[last->material]) == in_parts);
+    }
+    if (!*open) {
+        struct gn_program_key key =
+            s->casts ? gn_key_caster(frame, item, s->view) : gn_key_lit(frame, item, s->opts);
+        if (s->casts && !s->backs && casts_by_middle(frame->scene, pose, item, s->view))
+            gn_key_add_middle(s->view, &key);
+        if (in_parts) gn_key_take_part(s->blends, &key);
+        if (s->tints) key = gn_key_tint(&key);
+        if (s->group) key = gn_key_additive(frame, &key, s->group, s->opts);
+        uint32_t program = gn_frame_program(frame, &key);
+        GN_LIST_PUSH(&frame->draws) = (struct gn_draw){.program = program,
+                                                       .geometry = what->geometry,
+                                                       .material = what->material,
+                                                       .first_instance = frame->instances.count,
+                                                       .cull = (uint8_t)cull,
+                                                       .mirrored = mirrored};
+        frame->items.occluded = occluded;
+        *open = true;
+    }
+    set_instance(frame, pose, s, item, &GN_LIST_PUSH(&frame->instances));
     struct gn_draw *draw = &frame->draws.at[frame->draws.count - 1];
-    float depth_m = s->casts ? 0.0f : depth_of(frame, &pose->items[item].box_ws, true);
+    float depth_m = s->casts ? 0.0f : depth_of(frame, &pose->items[item].box_ws, 1);
     draw->depth_m += (depth_m - draw->depth_m) / (float)++draw->instance_count;
 }
 
@@ -206,13 +223,15 @@ static void draw_run(struct gn_frame *frame, const struct gn_pose *pose,
 
 void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_selection *s) {
-    uint32_t batch = UINT32_MAX;
+    uint64_t run = UINT64_MAX;
     frame->items.run.count = 0;
     for (uint32_t i = 0; i < frame->scene->item_count; i++) {
         if (!takes_item(frame, pose, s, i)) continue;
-        if (frame->scene->items[i].batch != batch) draw_run(frame, pose, s);
-        batch = frame->scene->items[i].batch;
-        float depth = s->casts ? 0.0f : depth_of(frame, &pose->items[i].box_ws, false);
+        const struct gn_item *item = &frame->scene->items[i];
+        const uint64_t its = 2 * (uint64_t)item->batch + (frame->plan.occlusion.on && item->still);
+        if (its != run) draw_run(frame, pose, s);
+        run = its;
+        float depth = s->casts ? 0.0f : depth_of(frame, &pose->items[i].box_ws, 0);
         GN_LIST_PUSH(&frame->items.run) = (struct gn_placed){depth, i};
     }
     draw_run(frame, pose, s);

@@ -24,22 +24,38 @@ static void turn_camera(struct gn_framing *framing, const struct gn_box *scene, 
     glm_vec3_add(framing->eye_ws, centre, framing->eye_ws);
 }
 
+/* Behind all of a box. */
+static float end_of(const struct gn_framing *framing, const struct gn_box *box) {
+    vec3 reach;
+    for (int k = 0; k < 3; k++)
+        reach[k] =
+            fmaxf(fabsf(box->min[k] - framing->eye_ws[k]), fabsf(box->max[k] - framing->eye_ws[k]));
+    return glm_vec3_norm(reach) * 1.01f;
+}
+
 /* A camera moved by the user shows all of the scene: its own near and far planes then only extend
  * the range. */
 static void set_planes(struct gn_framing *framing, const struct gn_box *box, bool moved,
                        float target_m) {
     struct gn_camera *camera = &framing->camera;
-    vec3 reach;
-    for (int k = 0; k < 3; k++)
-        reach[k] =
-            fmaxf(fabsf(box->min[k] - framing->eye_ws[k]), fabsf(box->max[k] - framing->eye_ws[k]));
-    const float end_m = glm_vec3_norm(reach) * 1.01f, least_m = 2.0f * camera->near_m,
+    const float end_m = end_of(framing, box), least_m = 2.0f * camera->near_m,
                 reach_m = isfinite(end_m) && end_m > least_m ? end_m : least_m;
     /* A far plane far beyond the scene shows nothing more and costs depth precision. */
     if (camera->far_m <= 0.0f || camera->far_m >= FAR_TIMES * reach_m) camera->far_m = reach_m;
     if (!moved) return;
     camera->far_m = fmaxf(camera->far_m, reach_m);
     camera->near_m = fminf(camera->near_m, camera->orthographic ? -reach_m : 0.125f * target_m);
+}
+
+/* An unseen floor is wider than the model: a camera that has all of that in its range has its floor
+ * in it, too, or the far plane would cut the shadows. */
+static void reach_floor(struct gn_framing *framing, const struct gn_pose *pose) {
+    const struct gn_scene *scene = pose->scene;
+    struct gn_camera *camera = &framing->camera;
+    for (uint32_t i = 0; scene->added.floor && i < scene->item_count; i++)
+        if (scene->materials[scene->items[i].material].shadow_catcher &&
+            1.01f * camera->far_m > end_of(framing, &pose->box_ws))
+            camera->far_m = fmaxf(camera->far_m, end_of(framing, &pose->items[i].box_ws));
 }
 
 static void project(const struct gn_camera *c, float aspect, float wider, mat4 clip_from_view) {
@@ -97,6 +113,7 @@ void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts
     turn_camera(framing, &pose->scene->box, view->turntable_rad);
     const bool placed = framing->distance_m > 0.0f;
     set_planes(framing, &pose->box_ws, placed || !gn_orbit_is_zero(orbit), target_m);
+    if (!of_light) reach_floor(framing, pose);
     if (camera->orthographic) {
         gn_orbit_ortho_half(orbit, camera, aspect, half);
         camera->xmag_m = half[0];

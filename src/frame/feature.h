@@ -44,10 +44,11 @@
     GN_LAYERS(X, GN_LEAVE_OUT, GN_LEAVE_OUT)                                                       \
     X(TINTED, "tinted") /* LIT: in colour, which a draw before has multiplied in; this one adds */ \
     X(ENVIRONMENT_KEY, "environment-key") /* smooth surfaces reflect it with its key light */      \
-    X(MIDDLE, "middle") /* DEPTH, DISTANCE: writes what lies between front and back face */        \
-    X(SKIN, "skin")     /* vertices follow up to four joints */                                    \
-    X(SKIN_8, "skin-8") /* or up to eight */                                                       \
-    X(MORPH, "morph")   /* the mesh has targets */
+    X(MIDDLE, "middle")     /* DEPTH, DISTANCE: writes what lies between front and back face */    \
+    X(SKIN, "skin")         /* vertices follow up to four joints */                                \
+    X(SKIN_8, "skin-8")     /* or up to eight */                                                   \
+    X(MORPH, "morph")       /* the mesh has targets */                                             \
+    X(OCCLUDED, "occluded") /* LIT, AOV: its ambient light is looked up in the scene's volume */
 
 enum gn_feature_bit {
 #define GN_X(NAME, ...) GN_BIT_##NAME##_TEXTURE, /* that slot has a texture */
@@ -70,8 +71,10 @@ enum gn_feature_bit {
 _Static_assert(GN_FEATURE_COUNT < 64, "bits of gn_program_key.features");
 
 /* The bit as a mask: GN_FEATURE(ALPHA_MASK). */
-#define GN_FEATURE(NAME) (UINT64_C(1) << GN_BIT_##NAME)
-#define GN_FEATURES_ALL  ((UINT64_C(1) << GN_FEATURE_COUNT) - 1)
+#define GN_FEATURE(NAME)  (UINT64_C(1) << GN_BIT_##NAME)
+#define GN_FEATURES_ALL   ((UINT64_C(1) << GN_FEATURE_COUNT) - 1)
+/* Of items whose vertices are posed: an instance has no matrix (lib/deform.glsl). */
+#define GN_FEATURES_POSED (GN_FEATURE(SKIN) | GN_FEATURE(SKIN_8) | GN_FEATURE(MORPH))
 
 struct gn_feature_row {
     const char *glsl, *name;

@@ -62,6 +62,11 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) 
     code_transform(view, tile, code);
     h = gn_hash(h, code, sizeof code);
     h = gn_hash(h, &view->lookup.reach_px, sizeof view->lookup.reach_px);
+    if (view->technique == GN_TECHNIQUE_FLOOR) {
+        const uint32_t state[] = {view->lamp.drawn, view->floor.left};
+        h = gn_hash(h, state, sizeof state);
+        h = gn_hash(h, &view->floor.ambient, 2 * sizeof view->floor.ambient);
+    }
     if (gn_techniques[view->technique].filter == GN_FILTER_CONE) {
         const float cone[] = {cone_growth(view, tile), (float)first_reach_px(view)};
         h = gn_hash(h, cone, sizeof cone);
@@ -105,6 +110,26 @@ void gn_view_filtered_size(const struct gn_shadow_view *view, uint32_t size_px[2
     gn_frame_filter_size(view->technique, &view->map, 0, size_px);
 }
 
+static void floor_constants(const struct gn_shadow_view *view, float (*c)[4]) {
+    const struct gn_shadow_square *square = &view->square;
+    const float side = view->lookup.texel * (float)view->map.tile_px;
+    mat4 world_from_plane;
+    vec3 corner;
+    glm_mat4_inv((vec4 *)view->raster.tiles[0].light_from_world, world_from_plane);
+    glm_mat4_mulv3(world_from_plane, (vec3){view->lamp.corner[0], view->lamp.corner[1], 0}, 1.0f,
+                   corner);
+    c[FILTER_FLOOR][0] = view->floor.ambient;
+    c[FILTER_FLOOR][1] = view->floor.key;
+    c[FILTER_FLOOR][2] = view->floor.weight;
+    for (int k = 0; k < 2; k++) {
+        float *to = c[FILTER_FLOOR_X + k];
+        for (int i = 0; i < 2; i++) to[i] = world_from_plane[i][2 * k] * side / square->half_m;
+        to[2] = (corner[2 * k] - square->middle[k]) / square->half_m;
+    }
+    c[FILTER_FLOOR_X][3] = view->penumbra.scale;
+    c[FILTER_FLOOR_Z][3] = view->penumbra.bias;
+}
+
 static void filter_constants(const struct gn_shadow_view *view, uint32_t tile,
                              const struct gn_filter_stage *stage, float (*c)[4]) {
     const struct gn_rect r = tile_rect(view, tile);
@@ -123,6 +148,7 @@ static void filter_constants(const struct gn_shadow_view *view, uint32_t tile,
     code_transform(view, tile, c[FILTER_CODE]);
     c[FILTER_CONE][0] = cone_growth(view, tile);
     c[FILTER_CONE][1] = (float)stage->reach_px;
+    if (view->technique == GN_TECHNIQUE_FLOOR) floor_constants(view, c);
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
         c[FILTER_SIZE][k + 2] = 1.0f / size[k];
@@ -185,7 +211,15 @@ static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile,
     filter_constants(view, tile, stage, constants);
     pass->constants = constants;
     pass->constant_count = FILTER_CONSTANTS;
-    gn_frame_draw_bare(frame, &key, 3, 0, 1);
+    if (view->technique == GN_TECHNIQUE_FLOOR) {
+        const uint32_t material = frame->scene->items[frame->floor.item].material;
+        pass->filter.blends = view->floor.weight < 1.0f;
+        key.features |= gn_key_texture(&frame->scene->materials[material], GN_TEXTURE_OCCLUSION);
+        gn_frame_draw_bare(frame, &key, 3, 0, 1);
+        frame->draws.at[frame->draws.count - 1].material = material;
+    } else {
+        gn_frame_draw_bare(frame, &key, 3, 0, 1);
+    }
     gn_frame_end_pass(frame);
 }
 

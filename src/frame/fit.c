@@ -56,6 +56,7 @@ static struct gn_shadow_opts wanted_map(struct gn_frame *frame, const struct gn_
                                    .plane = gn_frame_plane_of_slot(frame, slot),
                                    .points = opts->shadow.planar_points,
                                    .all_receive = opts->debug.aov == GN_AOV_VISIBILITY,
+                                   .but_floor = frame->floor.is_apart,
                                    .light = light->opts,
                                    .cascades = opts->shadow.cascades ? opts->shadow.cascades
                                                                      : GN_CASCADES_MAX};
@@ -67,6 +68,12 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
     for (uint32_t slot = 0; slot < frame->view_count; slot++) {
         /* how large the light's map is wanted, as far as this GPU's textures go */
         struct gn_frame_light *light = gn_frame_light_of_slot(frame, slot);
+        if (frame->floor.is_apart && slot == frame->floor.slot) {
+            maps[slot] = wanted_map(frame, opts, slot);
+            gn_frame_want_floor(frame, pose, &maps[slot]);
+            gn_frame_make_memories(frame, slot, 1);
+            continue;
+        }
         maps[slot] =
             (struct gn_shadow_opts){.technique = light->technique, .encoding = light->encoding};
         light->cascades = 1;

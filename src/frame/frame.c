@@ -110,6 +110,24 @@ static void choose_environment(struct gn_frame *frame, const struct gn_frame_opt
     frame->environment.turned = e->turn_rad != 0.0f;
 }
 
+/* After the environment. */
+static void choose_occlusion(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    const bool is_lit = frame->plan.environment.light && !frame->environment.reflected_only;
+    if (!opts->occlusion.on || frame->scene->occlusion.size[0] == 0) return;
+    if (!is_lit && opts->debug.aov != GN_AOV_OCCLUSION) return;
+    frame->plan.occlusion = (struct gn_plan_occlusion){
+        .on = true, .texels = opts->occlusion.texels, .id = opts->occlusion.id};
+}
+
+static void set_occlusion_constants(const struct gn_frame *frame, float (*c)[4]) {
+    const struct gn_scene_occlusion *grid = &frame->scene->occlusion;
+    for (int k = 0; frame->plan.occlusion.on && k < 3; k++) {
+        const float scale = 1.0f / (grid->cell_m * (float)grid->size[k]);
+        c[OCCLUSION_SCALE][k] = scale;
+        c[OCCLUSION_ADD][k] = 0.5f / (float)grid->size[k] - grid->origin[k] * scale;
+    }
+}
+
 static void set_environment_constants(struct gn_frame *frame, const struct gn_frame_opts *opts,
                                       float (*c)[4]) {
     const struct gn_environment_light *light = frame->plan.environment.light;
@@ -132,6 +150,7 @@ static void set_picture_constants(struct gn_frame *frame, const struct gn_pose *
      * make them black. */
     c[PASS_EXPOSURE][0] = opts->exposure_given ? frame->plan.exposure : 1.0f;
     set_environment_constants(frame, opts, c);
+    set_occlusion_constants(frame, c + PASS_ENVIRONMENT);
     for (uint32_t i = 0; i < frame->group_count; i++) {
         float(*of_group)[4] = gn_frame_constants(frame, GN_CONSTANTS_PICTURE + i);
         if (i > 0) memcpy(of_group, c, PASS_LIGHTS * sizeof *c);
@@ -161,6 +180,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_renew_notices(frame, opts);
     choose_output(frame, opts, warnings);
     choose_environment(frame, opts);
+    choose_occlusion(frame, opts);
     gn_frame_eye(frame, pose, opts, gn_frame_constants(frame, GN_CONSTANTS_PICTURE));
     plan->exposure = gn_frame_exposure(frame, pose, opts);
     gn_frame_choose_lights(frame, pose, opts, warnings);
@@ -170,9 +190,11 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_hold_maps(frame, opts);
     gn_frame_gather_points(frame, opts);
     set_picture_constants(frame, pose, opts);
+    gn_frame_light_floor(frame, pose);
 #define X(name) gn_frame_add_##name(frame, pose, opts);
     GN_FRAME_STEPS(X)
 #undef X
+    gn_frame_bound_overdraw(frame, pose, opts->overdraw, warnings);
     /* After the last pass to the output its samples are resolved, and nothing reads its depth. */
     struct gn_pass *last = &frame->passes.at[frame->passes.count - 1];
     while (last->target.kind != GN_TARGET_OUTPUT) last--;

@@ -66,6 +66,14 @@ struct gn_frame_environment_opts {
     float strength;                /* factor on its radiance; 0: it gives no light */
 };
 
+struct gn_frame_occlusion_opts { /* ambient occlusion of what stands still, on diffuse light of an
+                                    environment and on reflections beside it */
+    bool on;                     /* programs are made for it, also before there are texels */
+    const int8_t (*texels)[4]; /* of the scene's grid (scene.h), times 127; NULL: none is occluded.
+                                  Must stay as they are while plans use them */
+    uint64_t id;               /* of their content, of all scenes; 0: NULL */
+};
+
 struct gn_frame_output_opts {     /* what the picture is drawn to: assigned whole */
     uint32_t width_px, height_px; /* 1280 x 720 */
     unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
@@ -84,6 +92,7 @@ struct gn_frame_cover_opts {               /* what lies over the finished pictur
 struct gn_frame_opts {
     struct gn_frame_shadow_opts shadow;
     struct gn_frame_environment_opts environment;
+    struct gn_frame_occlusion_opts occlusion;
     struct gn_frame_view_opts view;
     struct gn_frame_debug_opts debug;
     struct gn_frame_output_opts output;
@@ -98,6 +107,9 @@ struct gn_frame_opts {
     enum gn_tone tone;         /* AUTO: as gn_frame_choose_tone() decides */
     bool exposure_given;
     float exposure_ev; /* stops, when given; else automatic */
+    uint64_t overdraw; /* limit on how often a frame draws a pixel, on average: opaque ones and
+                          those of a map count a quarter. Instances over it, by an estimate, are
+                          left out with a warning. 0: none */
     bool all_seen;     /* no culling: for programs that will be needed later */
     uint32_t number;   /* as gn_plan.view */
 };

@@ -17,6 +17,33 @@ static void set_scale(struct gn_shadow_view *view) {
     view->penumbra.bias = 1.0f - view->penumbra.scale;
 }
 
+static uint32_t points_of_frame(const struct gn_frame *frame, const struct gn_frame_opts *opts,
+                                uint32_t slot) {
+    const bool is_floor = frame->floor.is_apart && slot == frame->floor.slot;
+    return opts->shadow.gather_points && is_floor ? gn_frame_floor_points(frame)
+                                                  : opts->shadow.gather_points;
+}
+
+enum { FADE_FRAMES = 20 };
+
+/* A floor first shows the points of one frame, and goes on towards all of them in steps that are
+ * not seen: in each frame 1 / n of what is left, in the last one, with n = 1, all. */
+static void fade_floor(struct gn_frame *frame, uint32_t slot, uint32_t before, uint32_t more) {
+    struct gn_shadow_floor *floor = &frame->shadows[slot].floor;
+    const struct gn_shadow_lamp *lamp = &frame->shadows[slot].lamp;
+    uint32_t *left = &frame->gathered[slot].left;
+    if (before == 0) {
+        *left = 0;
+        if (lamp->drawn < lamp->count) *left = FADE_FRAMES + lamp->count / more;
+        floor->weight = 1.0f;
+    } else {
+        if (*left > 0) --*left;
+        floor->weight = 1.0f / (float)(*left + 1);
+    }
+    floor->left = *left;
+    frame->plan.is_behind |= *left > 0;
+}
+
 void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     for (uint32_t slot = 0; slot < frame->view_count; slot++) {
         struct gn_shadow_view *view = &frame->shadows[slot];
@@ -25,10 +52,11 @@ void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *
         if (lamp->count == 0) continue;
         const uint32_t before =
                            frame->gathered[slot].hash == hash ? frame->gathered[slot].drawn : 0,
-                       more = opts->shadow.gather_points;
+                       more = points_of_frame(frame, opts, slot);
         lamp->drawn = more && before + more < lamp->count ? before + more : lamp->count;
         set_scale(view);
         if (opts->all_seen) continue; /* it is not drawn */
+        if (view->technique == GN_TECHNIQUE_FLOOR) fade_floor(frame, slot, before, more);
         frame->gathered[slot].hash = hash;
         frame->gathered[slot].drawn = lamp->drawn;
         frame->plan.is_behind |= lamp->drawn < lamp->count;

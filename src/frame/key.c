@@ -14,7 +14,7 @@ static uint64_t texture_bit(int slot) { return UINT64_C(1) << (GN_FEATURE_FIRST_
 static uint64_t uv1_bit(int slot) { return UINT64_C(1) << (GN_FEATURE_FIRST_UV1 + slot); }
 
 /* The bits of a slot's texture, if the material has one. */
-static uint64_t texture_features(const struct gn_material *material, enum gn_texture_slot slot) {
+uint64_t gn_key_texture(const struct gn_material *material, enum gn_texture_slot slot) {
     const struct gn_texture_ref *ref = &material->textures[slot];
     if (ref->texture < 0) return 0;
     return texture_bit(slot) | (ref->uv_set ? uv1_bit(slot) : 0);
@@ -24,7 +24,7 @@ static uint64_t texture_features(const struct gn_material *material, enum gn_tex
 static uint64_t ambient_features(void) {
     uint64_t features = GN_FEATURE(HEMISPHERE) | GN_FEATURE(EMISSIVE) | GN_FEATURE(ENVIRONMENT) |
                         GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(ENVIRONMENT_SCALED) |
-                        GN_FEATURE(ENVIRONMENT_TURNED);
+                        GN_FEATURE(ENVIRONMENT_TURNED) | GN_FEATURE(OCCLUDED);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_texture_slots[slot].shading == GN_SHADING_EMISSION ||
             gn_texture_slots[slot].shading == GN_SHADING_AMBIENT)
@@ -44,7 +44,7 @@ static uint64_t deformation_features(const struct gn_scene *scene, const struct 
 /* The features that the alpha of a masked or blended item depends on. */
 static uint64_t cut_features(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_material *m = &scene->materials[item->material];
-    uint64_t features = GN_FEATURE(ALPHA_MASK) | texture_features(m, GN_TEXTURE_BASE);
+    uint64_t features = GN_FEATURE(ALPHA_MASK) | gn_key_texture(m, GN_TEXTURE_BASE);
     if (gn_geometry_has(&scene->geometries[item->geometry], GN_ATTRIBUTE_COLOR))
         features |= GN_FEATURE(VERTEX_COLOR);
     return features;
@@ -56,8 +56,15 @@ static uint64_t alpha_features(const struct gn_scene *scene, const struct gn_ite
     return masked ? cut_features(scene, item) : 0;
 }
 
-/* Bits of the environment, of a lit material. */
-static uint64_t environment_features(const struct gn_frame *frame, const struct gn_material *m) {
+static uint64_t occlusion_features(const struct gn_frame *frame, const struct gn_item *item) {
+    return frame->plan.occlusion.on && gn_item_is_occluded(frame->scene, item)
+               ? GN_FEATURE(OCCLUDED)
+               : 0;
+}
+
+/* Bits of the environment, of a lit item. */
+static uint64_t environment_features(const struct gn_frame *frame, const struct gn_item *item) {
+    const struct gn_material *m = &frame->scene->materials[item->material];
     uint64_t features = 0;
     if (!frame->plan.environment.light) return 0;
     /* a light map stands for all diffuse light that is not of a light */
@@ -67,6 +74,7 @@ static uint64_t environment_features(const struct gn_frame *frame, const struct 
                                           : gn_material_is_specular(m))
         features |= GN_FEATURE(ENVIRONMENT);
     if (!features) return 0;
+    if (features & GN_FEATURE(ENVIRONMENT_DIFFUSE)) features |= occlusion_features(frame, item);
     if (frame->environment.scaled) features |= GN_FEATURE(ENVIRONMENT_SCALED);
     if (frame->environment.turned) features |= GN_FEATURE(ENVIRONMENT_TURNED);
     if (frame->environment.shows_key && features & GN_FEATURE(ENVIRONMENT))
@@ -74,11 +82,16 @@ static uint64_t environment_features(const struct gn_frame *frame, const struct 
     return features;
 }
 
+bool gn_key_is_floor(const struct gn_frame *frame, uint32_t item) {
+    return frame->floor.is_apart && item == frame->floor.item;
+}
+
 bool gn_key_is_tinted(const struct gn_scene *scene, const struct gn_item *item) {
     const struct gn_material *m = &scene->materials[item->material];
+    const struct gn_geometry *geometry = &scene->geometries[item->geometry];
     return gn_material_is_tinted(m) ||
-           (gn_material_is_transmissive(m) &&
-            gn_geometry_has(&scene->geometries[item->geometry], GN_ATTRIBUTE_COLOR));
+           (gn_material_is_transmissive(m) && (gn_geometry_has(geometry, GN_ATTRIBUTE_COLOR) ||
+                                               (m->double_sided && geometry->watertight)));
 }
 
 static uint64_t color_features(const struct gn_frame *frame, const struct gn_item *item) {
@@ -89,7 +102,7 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         if (gn_material_reads(m, slot) &&
             (slot != GN_TEXTURE_NORMAL || gn_geometry_has(geometry, GN_ATTRIBUTE_TANGENT)))
-            features |= texture_features(m, slot);
+            features |= gn_key_texture(m, slot);
     const uint64_t attributes = geometry->attributes >> GN_PLAIN_ATTRIBUTE_COUNT;
     features |= attributes << GN_FEATURE_FIRST_ATTRIBUTE;
     if (m->alpha == GN_ALPHA_BLEND) features |= GN_FEATURE(ALPHA_BLEND);
@@ -112,7 +125,7 @@ static uint64_t color_features(const struct gn_frame *frame, const struct gn_ite
     }
     if (gn_material_is_metal(m)) features |= GN_FEATURE(METAL);
     if (gn_material_is_emissive(m)) features |= GN_FEATURE(EMISSIVE);
-    features |= environment_features(frame, m);
+    features |= environment_features(frame, item);
     if (memcmp(scene->environment.sky, scene->environment.ground, sizeof(vec3)) != 0 &&
         !(features & GN_FEATURE(ENVIRONMENT_DIFFUSE)))
         features |= GN_FEATURE(HEMISPHERE);
@@ -186,10 +199,20 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     key.features |= deformation_features(frame->scene, item);
     if (opts->debug.aov != GN_AOV_COLOR && m->double_sided)
         key.features |= GN_FEATURE(DOUBLE_SIDED);
+    if (opts->debug.aov == GN_AOV_OCCLUSION) key.features |= occlusion_features(frame, item);
     if (opts->debug.aov == GN_AOV_COLOR ? m->unlit : opts->debug.aov != GN_AOV_VISIBILITY)
         return key;
     enum gn_receiver receiver = receiver_of(frame, item, opts->debug.aov);
     set_lights(frame, &frame->groups[0], opts, receiver, &key);
+    if (gn_key_is_floor(frame, index)) { /* its visibility */
+        struct gn_light_key *light = &key.lights[0];
+        const uint8_t type = light->type;
+        memset(light, 0, sizeof *light);
+        light->type = type;
+        light->technique = GN_TECHNIQUE_PLANAR;
+        light->encoding = GN_ENCODING_MEAN;
+        key.taps_turn = false;
+    }
     if (frame->group_count > 1) key.receiver = (uint8_t)receiver;
     return key;
 }
@@ -237,7 +260,7 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
     if (gn_material_is_blended(m)) {
         key.features =
             m->alpha == GN_ALPHA_OPAQUE ? GN_FEATURE(ALPHA_MASK) : cut_features(frame->scene, what);
-        key.features |= GN_FEATURE(ALPHA_DITHER) | texture_features(m, GN_TEXTURE_TRANSMISSION);
+        key.features |= GN_FEATURE(ALPHA_DITHER) | gn_key_texture(m, GN_TEXTURE_TRANSMISSION);
     }
     key.features |= deformation_features(frame->scene, what);
     if (key.kind != GN_PROGRAM_DISTANCE) return key;

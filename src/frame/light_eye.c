@@ -6,12 +6,15 @@
 /* Of the half-angle: a wider cone is not seen whole, as its map does not hold it whole. */
 #define WIDEST_RAD 1.3962634f /* 80 degrees */
 
+/* However large the scene is, a lamp sees what is a hand away. */
+#define NEAREST_M 0.05f
+
 /* A spot's cone touches the shorter sides of the picture. */
 static void look_from_spot(const struct gn_light *light, float size_m, float aspect,
                            struct gn_camera *camera) {
     const float slope = tanf(fminf(light->outer_rad, WIDEST_RAD));
     camera->yfov_rad = 2.0f * atanf(slope / fminf(aspect, 1.0f));
-    camera->near_m = 1e-3f * size_m;
+    camera->near_m = fminf(1e-3f * size_m, NEAREST_M);
 }
 
 /* What casts, without the ground and what moves, so that the picture stands still; or all. */

@@ -1,21 +1,19 @@
 #include <math.h>
 #include <string.h>
 
+#include "core/srgb.h"
 #include "frame/private.h"
-
-static float luminance(const float c[3]) {
-    return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
-}
 
 /* Lux on a surface at the scene's centre that faces the light; ignores cones. */
 static float illuminance(const struct gn_pose *pose, uint32_t index, const float color[3]) {
     const struct gn_light *light = &pose->scene->lights[index];
-    if (!gn_light_types[light->type].has_position) return luminance(color);
+    if (!gn_light_types[light->type].has_position) return gn_luminance(color);
     vec3 place, direction, centre;
     gn_pose_light(pose, index, place, direction);
     glm_vec3_center((float *)pose->box_ws.min, (float *)pose->box_ws.max, centre);
-    float d2 = glm_vec3_distance2(place, centre);
-    return luminance(color) / fmaxf(d2, 1e-4f);
+    const float d2 = glm_vec3_distance2(place, centre), /* a lamp in the middle is not at 0 */
+        size2 = glm_vec3_distance2((float *)pose->box_ws.min, (float *)pose->box_ws.max);
+    return gn_luminance(color) / fmaxf(d2, fmaxf(1e-4f * fminf(size2, 1.0f), 1e-18f));
 }
 
 float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
@@ -241,6 +239,7 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_choose_slides(frame, opts, warnings);
     gn_frame_group_lights(frame, pose);
     gn_frame_add_plane_slots(frame);
+    gn_frame_take_floor(frame, pose, opts);
     if (frame->plane.shown < frame->plane.count && frame->scene->planes_named &&
         has_planar_light(frame) && gn_frame_notice(&frame->notes.said, GN_NOTICE_PLANES, warnings))
         gn_warn(warnings, "planar shadows are on %u of %u planes: %s", frame->plane.shown,

@@ -78,7 +78,8 @@ struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uin
     for (uint32_t i = 0; i < g->shadow_count; i++)
         if (frame->shadows[g->first_shadow + i].map.cascade_count > 0)
             pass->constant_count = PASS_ENVIRONMENT;
-    if (group == 0 && frame->plan.environment.light) pass->constant_count = PASS_SIZE;
+    if (group == 0 && (frame->plan.environment.light || frame->plan.occlusion.on))
+        pass->constant_count = PASS_SIZE;
     if (group == 0) return pass;
     snprintf(pass->label, sizeof pass->label, "%s%slights %u-%u", label, *label ? " " : "",
              g->first + 1, g->first + g->count);

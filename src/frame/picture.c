@@ -60,7 +60,8 @@ static void begin_blend_pass(struct gn_frame *frame) {
 }
 
 /* Farthest first; of an item that is seen from both sides, and is no plane, its back faces first.
- */
+ * Of a watertight body of glass those have no colour: light that passes it enters as often as it
+ * leaves, and is tinted once for both. */
 static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                              const struct gn_frame_opts *opts) {
     const struct gn_placed *placed = frame->items.blended.at;
@@ -72,10 +73,18 @@ static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
         const struct gn_item *what = &frame->scene->items[item];
         const bool two_sided = frame->scene->materials[what->material].double_sided &&
                                !frame->scene->geometries[what->geometry].flat;
+        const bool vessel = two_sided && frame->scene->geometries[what->geometry].watertight;
         open = open && what->batch == frame->scene->items[placed[i - 1].item].batch;
+        if (gn_key_is_floor(frame, item)) {
+            if (in_pass) gn_frame_end_pass(frame);
+            in_pass = open = false;
+            gn_frame_draw_floor(frame, pose, opts);
+            continue;
+        }
         for (int side = 0; side <= two_sided; side++) {
             struct gn_selection seen = {.opts = opts, .blends = true};
             if (two_sided) seen.cull = side ? GN_CULL_BACK : GN_CULL_FRONT;
+            seen.colorless = vessel && !side;
             if (gn_key_is_tinted(frame->scene, what)) {
                 if (in_pass) gn_frame_end_pass(frame);
                 in_pass = open = false;
@@ -146,7 +155,7 @@ static void background_of(const struct gn_frame *frame, const struct gn_frame_op
 void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts) {
     static const float aov_clear[GN_AOV_COUNT] = {
-        [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY};
+        [GN_AOV_VISIBILITY] = 1.0f, [GN_AOV_DISTANCE] = INFINITY, [GN_AOV_OCCLUSION] = 1.0f};
     const enum gn_aov aov = opts->debug.aov;
     const bool encode = frame->plan.encode_srgb && frame->plan.output == GN_OUTPUT_LINEAR8;
     const struct gn_selection seen = {.part = frame->plan.stencil ? GN_PART_REST : GN_PART_ALL,
@@ -168,6 +177,7 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_draw_items(frame, pose, &seen);
     gn_frame_sort_draws(frame, first);
     gn_frame_end_pass(frame);
+    if (aov == GN_AOV_VISIBILITY) gn_frame_draw_floor(frame, pose, opts);
     add_further_planes(frame, pose, opts, 0);
     if (frame->plan.stencil) gn_frame_plane_passes(frame, pose, opts, 0);
     for (uint32_t i = 1; i < frame->group_count; i++) {

@@ -33,7 +33,14 @@ enum gn_tone {               /* what maps the picture's radiance to what a scree
                GN_TONE_AGX,
                GN_TONE_COUNT
 };
-enum gn_aov { GN_AOV_COLOR, GN_AOV_VISIBILITY, GN_AOV_DISTANCE, GN_AOV_NORMAL, GN_AOV_COUNT };
+enum gn_aov {
+    GN_AOV_COLOR,
+    GN_AOV_VISIBILITY,
+    GN_AOV_DISTANCE,
+    GN_AOV_NORMAL,
+    GN_AOV_OCCLUSION,
+    GN_AOV_COUNT
+};
 
 /* ---- programs: a variant is a key ---- */
 
@@ -215,6 +222,7 @@ struct gn_pass {
             struct gn_copy copies[GN_SHADOW_PAGES_MAX];
         } copy;
         struct gn_pass_filter {
+            bool blends;                              /* with what is there, by alpha */
             struct gn_read reads[GN_FILTER_FROM_MAX]; /* sampler i, of the same slot */
         } filter;
     };
@@ -259,6 +267,11 @@ struct gn_plan {
         const struct gn_environment_light *light; /* what ENVIRONMENT programs read, or NULL */
         uint64_t id;                              /* of its content */
     } environment;
+    struct gn_plan_occlusion { /* what OCCLUDED programs read */
+        bool on;
+        const int8_t (*texels)[4]; /* as gn_frame_occlusion_opts has them */
+        uint64_t id;
+    } occlusion;
     const struct gn_material *materials; /* the scene's, or as clips make them */
     const float (*pose_texels)[4];       /* of the pose: as many as scene->deformation says */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;

@@ -6,7 +6,8 @@ static const char *const outputs[] = {[GN_OUTPUT_SRGB8] = "srgb8",
                                       [GN_OUTPUT_LINEAR8] = "linear8",
                                       [GN_OUTPUT_FLOAT] = "float",
                                       [GN_OUTPUT_AOV] = "bits"};
-static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance", "normal"};
+static const char *const aovs[GN_AOV_COUNT] = {"color", "visibility", "distance", "normal",
+                                               "occlusion"};
 static const char *const receivers[] = {[GN_RECEIVES_MAPS] = "",
                                         [GN_RECEIVES_NOTHING] = ", receives nothing",
                                         [GN_RECEIVES_ALL] = ", receives all"};

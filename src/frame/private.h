@@ -77,6 +77,11 @@ struct gn_frame {
                                   are any */
     } plane;                   /* of the scene, for planar shadows */
     struct {
+        bool is_apart;       /* the unseen floor has a texture of its alpha, in place of the made
+                                light's own map */
+        uint32_t slot, item; /* of that; the floor */
+    } floor;
+    struct {
         bool known;
         float value;
     } auto_exposure;                                 /* fixed at the first build */
@@ -97,6 +102,7 @@ struct gn_frame {
     struct {
         uint64_t hash;      /* of the mask's content; 0: there is none */
         uint32_t drawn;     /* points of the lamp */
+        uint32_t left;      /* frames until a floor shows them; 0: it does */
         float (*points)[4]; /* their constants; NULL until there are any */
     } gathered[GN_ALL_SHADOWS_MAX];
     GN_LIST(struct gn_draw) draws; /* these four: of the plan */
@@ -106,6 +112,7 @@ struct gn_frame {
     struct {
         GN_LIST(struct gn_placed) blended, run, sorted;
         GN_LIST(struct gn_draw) merged; /* room to sort in */
+        bool occluded;                  /* by the scene's volume: what the open draw has */
     } items;                            /* of the pass that is being built */
     float (*constants)[4];              /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
     float (*sets)[4];                   /* stencil.c's, likewise; NULL until there are any */
@@ -119,7 +126,7 @@ struct gn_frame {
 };
 
 /* Room of the constants of one pass, in vec4. */
-enum { GN_PASS_SIZE = 128 };
+enum { GN_PASS_SIZE = 130 };
 /* Sets of a slot: a page of a tile each. */
 enum { GN_SLOT_SETS = GN_SHADOW_TILES_MAX * GN_SHADOW_PAGES_MAX };
 /* Index of a set of constants. */
@@ -144,6 +151,7 @@ struct gn_selection {
     const struct gn_light_group *group; /* added: draws items in its reach; NULL: the first */
     enum gn_part part;                  /* not of a shadow pass */
     bool tints;                         /* draws the tint of what transmits colours */
+    bool colorless;                     /* tints as if it were white */
     bool blends;                        /* of blended items: what is not opaque */
     enum gn_cull cull;                  /* of double-sided items: NONE: both sides */
     uint32_t plane; /* the same: only receivers of planar shadows on it; 0: all but those on further
@@ -199,6 +207,26 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
 /* budget.c: after the lights' views are known. Replaces views over the budget by their older ones.
  */
 void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts);
+
+/* ---- floor.c: an unseen floor, while nothing that casts can move ---- */
+
+/* After the lights are chosen: whether its alpha has a texture, in a slot of its own. */
+void gn_frame_take_floor(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_frame_opts *opts);
+/* What is wanted of its map, by what is wanted of the light's own. */
+void gn_frame_want_floor(const struct gn_frame *frame, const struct gn_pose *pose,
+                         struct gn_shadow_opts *wanted);
+/* How many points of the lamp a frame adds. */
+uint32_t gn_frame_floor_points(const struct gn_frame *frame);
+/* After the constants of the picture are known: the shares of light in its view. */
+void gn_frame_light_floor(struct gn_frame *frame, const struct gn_pose *pose);
+/* Draws it: a pass of its own, to the picture or to its visibility. */
+void gn_frame_draw_floor(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_frame_opts *opts);
+
+/* overdraw.c: after all passes. Leaves out instances over the limit gn_frame_opts.overdraw. */
+void gn_frame_bound_overdraw(struct gn_frame *frame, const struct gn_pose *pose, uint64_t most,
+                             struct gn_warnings *warnings);
 
 /* gather.c: after the lights' views are known. How many points of its lamp each planar mask has
  * after this frame. */
@@ -299,6 +327,8 @@ void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from
 /* key.c: the program that draws an item. */
 /* Whether that reads the shadows of planar lights. */
 struct gn_program_key gn_key_of(enum gn_program_kind kind); /* all else is zero */
+/* The bits of a slot's texture; 0: the material has none. */
+uint64_t gn_key_texture(const struct gn_material *material, enum gn_texture_slot slot);
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item, const struct gn_frame_opts *opts);
 /* The plane whose planar shadows it reads, if that is not the first; else 0. */
 uint32_t gn_key_further_plane(const struct gn_frame *frame, uint32_t item,
@@ -311,10 +341,12 @@ struct gn_program_key gn_key_caster(const struct gn_frame *frame, uint32_t item,
 void gn_key_add_middle(const struct gn_shadow_view *view, struct gn_program_key *key);
 /* Of a blended item with opaque texels: these alone, as if it were masked, or the rest. */
 void gn_key_take_part(bool rest, struct gn_program_key *key);
-/* Whether an item transmits colours. Each channel needs a factor of its own on what is behind,
- * which blending has no place for beside reflections (two outputs a target are not in ES 3.0), so
- * such an item is drawn twice: its tint multiplies, then its own light adds. All others take one
- * draw. */
+/* Whether an item is the floor that floor.c has taken. */
+bool gn_key_is_floor(const struct gn_frame *frame, uint32_t item);
+/* Whether an item transmits colours, or only its front faces tint. Each channel needs a factor of
+ * its own on what is behind, which blending has no place for beside reflections (two outputs a
+ * target are not in ES 3.0), so such an item is drawn twice: its tint multiplies, then its own
+ * light adds. All others take one draw. */
 bool gn_key_is_tinted(const struct gn_scene *scene, const struct gn_item *item);
 /* The program of the first of them, by that of the second. */
 struct gn_program_key gn_key_tint(const struct gn_program_key *lit);

@@ -18,6 +18,7 @@
     X(MARK, "mark", "mark.vert", "mark.frag", PICTURE, GN_PROGRAM_BARE)                 /* gizmo of a light */ \
     X(PANEL, "panel", "panel.vert", "panel.frag", PICTURE, GN_PROGRAM_BARE | GN_PROGRAM_ENCODING) /* a map, on the picture */ \
     X(BACKDROP, "backdrop", "backdrop.vert", "backdrop.frag", PICTURE, GN_PROGRAM_BARE) /* the environment behind everything */ \
+    X(FLOOR, "floor", "floor.vert", "floor.frag", PICTURE, GN_PROGRAM_BARE)             /* an unseen floor, by a texture of its alpha */ \
     X(ENCODE, "encode", "encode.vert", "encode.frag", PICTURE, GN_PROGRAM_BARE)         /* the linear picture, encoded */ \
     X(CAPTION, "caption", "caption.vert", "caption.frag", PICTURE, GN_PROGRAM_BARE)     /* texts */ \
     X(FILTER, "filter", "encode.vert", NULL, FILTER, GN_PROGRAM_BARE)                   /* a map or moments to moments; gn_filter_steps has the fragment stages */

@@ -3,6 +3,7 @@
 #include "blocks.glsl"
 #include "frame/private.h"
 
+/* beside maps the environment, or with one texture less (gn_item_is_occluded) occlusion, too */
 _Static_assert(GN_MATERIAL_TEXTURES_MAX + 2 * GN_SHADOWS_MAX + 1 <= GN_SAMPLERS_MAX, "samplers");
 
 void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *opts,
@@ -11,9 +12,11 @@ void gn_frame_choose_slides(struct gn_frame *frame, const struct gn_frame_opts *
     for (uint32_t i = 0; i < frame->light_count; i++)
         both += gn_techniques[frame->lights[i].technique].reads_both;
     if (both > GN_SHADOWS_MAX) both = GN_SHADOWS_MAX;
-    const uint32_t cube = frame->plan.environment.light ? 1 : 0;
+    const uint32_t ambient =
+        (frame->plan.environment.light ? 1 : 0) +
+        (frame->plan.occlusion.on && frame->scene->material_textures < GN_MATERIAL_TEXTURES_MAX);
     const uint32_t left = GN_SAMPLERS_MAX - frame->scene->material_textures - GN_SHADOWS_MAX -
-                          both - cube,
+                          both - ambient,
                    most = left < GN_SLIDES_MAX ? left : GN_SLIDES_MAX;
     for (uint32_t i = 0; i < frame->light_count; i++) {
         struct gn_frame_light *light = &frame->lights[i];

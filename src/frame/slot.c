@@ -53,6 +53,7 @@ uint32_t gn_frame_plane_of_slot(const struct gn_frame *frame, uint32_t slot) {
 
 struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot) {
     uint32_t plane;
+    if (frame->floor.is_apart && slot == frame->floor.slot) return &frame->lights[0];
     return light_of_map(frame, first_slot(frame, slot, &plane));
 }
 

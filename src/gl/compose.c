@@ -8,10 +8,9 @@
 #include "gl/private.h"
 
 static const char *const aov_names[GN_AOV_COUNT] = {
-    [GN_AOV_COLOR] = "AOV_COLOR",
-    [GN_AOV_VISIBILITY] = "AOV_VISIBILITY",
-    [GN_AOV_DISTANCE] = "AOV_DISTANCE",
-    [GN_AOV_NORMAL] = "AOV_NORMAL",
+    [GN_AOV_COLOR] = "AOV_COLOR",         [GN_AOV_VISIBILITY] = "AOV_VISIBILITY",
+    [GN_AOV_DISTANCE] = "AOV_DISTANCE",   [GN_AOV_NORMAL] = "AOV_NORMAL",
+    [GN_AOV_OCCLUSION] = "AOV_OCCLUSION",
 };
 static const char *const taps_names[] = {
     [GN_TAPS_DISK] = "DISK", [GN_TAPS_POISSON] = "POISSON", [GN_TAPS_RINGS] = "RINGS"};
@@ -38,6 +37,7 @@ static void add_constants(const struct gn_program_key *key, struct gn_gl_text *o
     gn_gl_text_add(out, "const int DELTAS_WIDTH = %d;\n", GN_DELTAS_WIDTH);
     if (key->shadow_count) gn_gl_text_add(out, "#define WITH_SHADOWS 1\n");
     gn_gl_text_add(out, "const float ENVIRONMENT_ROUGHEST = %d.0;\n", GN_ENVIRONMENT_LEVELS - 1);
+    gn_gl_text_add(out, "const float FLOOR_OCCLUDED = %.6f;\n", (double)GN_FLOOR_OCCLUDED);
     gn_gl_text_add(out, "const int LIGHT_COUNT = %d;\nconst int SHADOW_COUNT = %d;\n",
                    key->light_count, key->shadow_count);
     for (int i = 0; i < GN_LIGHT_TYPE_COUNT; i++)
@@ -241,8 +241,7 @@ static void add_flags(int lights, const char *name, uint32_t bits, struct gn_gl_
 static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     /* a bit per light */
     uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0, projected = 0;
-    const bool deforms =
-        key->features & (GN_FEATURE(SKIN) | GN_FEATURE(SKIN_8) | GN_FEATURE(MORPH));
+    const bool deforms = key->features & GN_FEATURES_POSED;
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
         const struct gn_light_key *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
@@ -261,7 +260,7 @@ static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text 
     uint32_t ranged = 0;
     for (int i = 0; i < key->light_count; i++) ranged |= (uint32_t)key->lights[i].ranged << i;
     const uint32_t shadows = (1u << key->shadow_count) - 1;
-    const bool cut_last = shared & shadows;
+    const bool cut_last = (shared | smooth) & shadows;
     gn_gl_text_add(out, "const bool SHADOW_BACKS = %s;\n",
                    key->kind == GN_PROGRAM_AOV ? "true" : "false");
     add_flags(key->light_count, "LIGHT_RANGED", ranged, out);

@@ -40,7 +40,8 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
         const uint32_t slot = pass->target.slot;
         struct gn_target target = pass->target;
         target.index = read->index;
-        target.mipmaps &= read->index == 0;
+        target.mipmaps = read->index == 0 && read->kind == GN_READ_MOMENTS &&
+                         gn_view_has_mipmaps(&plan->shadows[slot]);
         target.width_px = read->width_px;
         target.height_px = read->height_px;
         const struct gn_gl_map *map = read->kind == GN_READ_MOMENTS
@@ -59,6 +60,8 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture, nearest);
     else if (pass->target.kind == GN_TARGET_ENCODED)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output->texture, nearest);
+    else if (picture->shadow_count == 0) /* no map that compares is left to who does not */
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, 0, nearest);
     else
         for (uint32_t i = 0; i < picture->shadow_count; i++) {
             const uint32_t slot = gn_pass_slot(picture, i);
@@ -73,6 +76,7 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
     for (uint32_t i = 0; i < picture->slide_count; i++) gn_gl_slide_bind(gl, i, picture->slides[i]);
     if (plan->environment.light)
         gn_gl_bind_cube(gl, gl->environment.texture, gl->environment.sampler);
+    if (plan->occlusion.on) gn_gl_bind_volume(gl, gl->occlusion.texture, gl->occlusion.sampler);
 }
 
 void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
@@ -88,7 +92,7 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
         program->constants_hash = constants_hash;
         GL(gl, Uniform4fv)(program->u_pass, (GLsizei)pass->constant_count, pass->constants[0]);
     }
-    if (geometry && program->texture_slots) {
+    if (program->texture_slots) {
         const struct gn_material *material = &gl->scene.scene->materials[d->material];
         for (uint32_t slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
             if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, material, slot);

@@ -37,6 +37,7 @@ void gn_gl_destroy(struct gn_gl *gl) {
         gn_gl_targets_finish(gl);
         gn_gl_atlas_finish(gl);
         gn_gl_environment_finish(gl);
+        gn_gl_occlusion_finish(gl);
         for (int i = 0; i < GN_GL_INSTANCE_RING; i++)
             gn_gl_object_destroy(gl, GN_GL_BUFFER, &gl->instances.buffers[i]);
         if (gl->debug.on && gl->caps.has & 1u << GN_CAP_DEBUG)

@@ -58,6 +58,7 @@ void gn_gl_pass_begin(struct gn_gl *gl, const struct gn_pass *pass, GLuint frame
                                            : (struct gn_gl_rect){0, 0, width, height};
     gn_gl_bind_framebuffer(gl, framebuffer);
     gn_gl_set_viewport(gl, viewport);
+    gn_gl_use_program(gl, 0); /* a clear would hold its samplers against what is bound now */
     if (area != GN_CLEAR_NOTHING) {
         gn_gl_set_scissor(gl, area == GN_CLEAR_RECT ? &viewport : NULL);
         gn_gl_set_depth(gl, true, true);
@@ -84,7 +85,11 @@ void gn_gl_pass_begin(struct gn_gl *gl, const struct gn_pass *pass, GLuint frame
     gn_gl_set_color_write(gl, !only_stencil);
     gn_gl_set_stencil(gl, picture ? &picture->stencil : &no_stencil);
     const bool subtracts = pass->kind == GN_PASS_MAP && pass->map.point_count > 0;
-    gn_gl_set_blend(gl, picture ? picture->blend : subtracts ? GN_BLEND_SUBTRACT : GN_BLEND_OFF);
+    const bool blends = pass->kind == GN_PASS_FILTER && pass->filter.blends;
+    gn_gl_set_blend(gl, picture     ? picture->blend
+                        : subtracts ? GN_BLEND_SUBTRACT
+                        : blends    ? GN_BLEND_ALPHA
+                                    : GN_BLEND_OFF);
     gn_gl_set_one_depth(gl, 0);
 }
 

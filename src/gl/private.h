@@ -42,6 +42,18 @@ bool gn_gl_environment_ensure(struct gn_gl *gl, const struct gn_plan_environment
 bool gn_gl_environment_holds(const struct gn_gl *gl, const struct gn_plan_environment *environment);
 void gn_gl_environment_finish(struct gn_gl *gl);
 
+/* ---- ambient occlusion (occlusion.c) ---- */
+
+struct gn_gl_occlusion {
+    GLuint texture, sampler; /* a volume */
+    uint32_t size[3];
+    uint64_t id; /* of its content; 0: nothing is occluded */
+};
+/* Makes the volume of the plan's scene, and uploads its content if that is another one. */
+bool gn_gl_occlusion_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+bool gn_gl_occlusion_holds(const struct gn_gl *gl, const struct gn_plan *plan);
+void gn_gl_occlusion_finish(struct gn_gl *gl);
+
 /* ---- one pass (pass.c, draw.c) ---- */
 
 /* Binds the target and sets the state of a pass. area: what to clear, of pass->clear or less. */
@@ -116,6 +128,7 @@ struct gn_gl {
     struct gn_gl_kept kept;
     struct gn_gl_atlas atlas;
     struct gn_gl_environment environment;
+    struct gn_gl_occlusion occlusion;
     struct gn_gl_window window; /* width 0: none */
     struct {
         uint8_t *data; /* of gn_gl_read_xrgb8888() */

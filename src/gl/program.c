@@ -142,6 +142,7 @@ static void set_units(struct gn_gl *gl, struct gn_gl_program *program) {
     for (int i = 0; i < GN_SLIDES_MAX; i++)
         set_unit(gl, program->name, slides[i], GN_GL_UNIT_SLIDE + i);
     set_unit(gl, program->name, "u_environment", GN_GL_UNIT_ENVIRONMENT);
+    set_unit(gl, program->name, "u_occlusion", GN_GL_UNIT_OCCLUSION);
     set_unit(gl, program->name, "u_pose", GN_GL_UNIT_POSE);
     set_unit(gl, program->name, "u_deltas", GN_GL_UNIT_DELTAS);
     for (int i = 0; i < GN_TEXTURE_SLOT_COUNT; i++)

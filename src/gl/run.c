@@ -45,7 +45,8 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
              gn_gl_program_prepare(gl, key, err);
     }
     ok = ok && gn_gl_targets_ensure(gl, plan, err) && gn_gl_atlas_ensure(gl, plan->atlas, err) &&
-         gn_gl_environment_ensure(gl, &plan->environment, err);
+         gn_gl_environment_ensure(gl, &plan->environment, err) &&
+         gn_gl_occlusion_ensure(gl, plan, err);
     if (made != gl->programs.made) GL(gl, ReleaseShaderCompiler)();
     return ok;
 }
@@ -178,7 +179,8 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
     const uint32_t calls_before = gl->calls;
     gl->stats = (struct gn_gl_stats){0};
     if (plan->program_count > gl->plan_programs.room || plan->scene != gl->scene.scene ||
-        !gn_gl_atlas_holds(gl, plan->atlas) || !gn_gl_environment_holds(gl, &plan->environment))
+        !gn_gl_atlas_holds(gl, plan->atlas) || !gn_gl_environment_holds(gl, &plan->environment) ||
+        !gn_gl_occlusion_holds(gl, plan))
         return gn_fail(err, "the plan was not prepared");
     for (uint32_t i = 0; i < plan->program_count; i++) {
         const struct gn_gl_program *p = gl->plan_programs.at[i] =

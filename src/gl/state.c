@@ -48,6 +48,10 @@ void gn_gl_bind_cube(struct gn_gl *gl, GLuint texture, GLuint sampler) {
     bind_to(gl, GL_TEXTURE_CUBE_MAP, GN_GL_UNIT_ENVIRONMENT, texture, sampler);
 }
 
+void gn_gl_bind_volume(struct gn_gl *gl, GLuint texture, GLuint sampler) {
+    bind_to(gl, GL_TEXTURE_3D, GN_GL_UNIT_OCCLUSION, texture, sampler);
+}
+
 void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture) {
     gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, texture, 0);
     activate_unit(gl, GN_GL_UNIT_WORK);
@@ -56,6 +60,11 @@ void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture) {
 void gn_gl_work_on_cube(struct gn_gl *gl, GLuint texture) {
     gn_gl_bind_cube(gl, texture, 0);
     activate_unit(gl, GN_GL_UNIT_ENVIRONMENT);
+}
+
+void gn_gl_work_on_volume(struct gn_gl *gl, GLuint texture) {
+    gn_gl_bind_volume(gl, texture, 0);
+    activate_unit(gl, GN_GL_UNIT_OCCLUSION);
 }
 
 void gn_gl_use_program(struct gn_gl *gl, GLuint name) {

@@ -22,6 +22,7 @@ enum { /* texture units: maps first, then one a gn_texture_slot, then slides, on
        GN_GL_UNIT_WORK = GN_GL_UNIT_SLIDE + GN_SLIDES_MAX,
        GN_GL_UNIT_FILTERED,
        GN_GL_UNIT_ENVIRONMENT = GN_GL_UNIT_FILTERED + GN_SHADOWS_MAX, /* a cube */
+       GN_GL_UNIT_OCCLUSION,                                          /* a volume */
        GN_GL_UNIT_POSE, /* what vertex shaders read of skins and targets */
        GN_GL_UNIT_DELTAS,
        GN_GL_UNIT_COUNT,
@@ -54,9 +55,12 @@ void gn_gl_bind_array_buffer(struct gn_gl *gl, GLuint name);
 void gn_gl_bind_texture(struct gn_gl *gl, GLuint unit, GLuint texture, GLuint sampler);
 /* Binds the environment's cube, on a unit that has no other textures. */
 void gn_gl_bind_cube(struct gn_gl *gl, GLuint texture, GLuint sampler);
+/* The same of occlusion's volume. */
+void gn_gl_bind_volume(struct gn_gl *gl, GLuint texture, GLuint sampler);
 /* Binds a texture for calls that name none (storage, upload), on a unit of its own. */
 void gn_gl_work_on_texture(struct gn_gl *gl, GLuint texture);
 void gn_gl_work_on_cube(struct gn_gl *gl, GLuint texture); /* on that unit */
+void gn_gl_work_on_volume(struct gn_gl *gl, GLuint texture);
 void gn_gl_use_program(struct gn_gl *gl, GLuint name);
 void gn_gl_set_viewport(struct gn_gl *gl, struct gn_gl_rect rect);
 void gn_gl_set_scissor(struct gn_gl *gl, const struct gn_gl_rect *rect); /* NULL: off */

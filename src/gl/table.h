@@ -97,7 +97,9 @@
     X(PFNGLSTENCILOPPROC, StencilOp)                                                               \
     X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                                       \
     X(PFNGLTEXSTORAGE2DPROC, TexStorage2D)                                                         \
+    X(PFNGLTEXSTORAGE3DPROC, TexStorage3D)                                                         \
     X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                                       \
+    X(PFNGLTEXSUBIMAGE3DPROC, TexSubImage3D)                                                       \
     X(PFNGLUNIFORM1IPROC, Uniform1i)                                                               \
     X(PFNGLUNIFORM4FVPROC, Uniform4fv)                                                             \
     X(PFNGLUSEPROGRAMPROC, UseProgram)                                                             \

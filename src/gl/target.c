@@ -164,7 +164,7 @@ static const GLenum map_formats[GN_ENCODING_ALL] = {
     [GN_ENCODING_SCREEN] = GL_R32UI,
 };
 
-static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
+static const GLenum moments_formats[GN_MOMENTS_ALL] = {
     [GN_MOMENTS_NONE] = GL_NONE,
     [GN_MOMENTS_RG32UI] = GL_RG32UI,
     [GN_MOMENTS_RGBA16UI] = GL_RGBA16UI,
@@ -176,6 +176,7 @@ static const GLenum moments_formats[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_CONE_RG16F] = GL_RG16F,
     [GN_MOMENTS_CONE_BITS] = GL_R32UI,
     [GN_MOMENTS_CONE_BYTES] = GL_RGBA8,
+    [GN_MOMENTS_FLOOR] = GL_R8,
 };
 
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {

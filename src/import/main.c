@@ -28,7 +28,7 @@ static const char help[] =
     "      --up auto|y|z      which axis of the model is up (auto: what FBX and Collada files "
     "say;\n"
     "                         z for STL and PLY; y for OBJ)\n"
-    "      --memory MB        memory limit (2048, at most 3/4 of the machine's)\n"
+    "      --memory MB        memory limit (2048, at most half of the machine's)\n"
     "      --time S           time limit (60 seconds)\n"
     "      --file MB          size limit of files read and written (512)\n"
     "  -h, --help             this text\n"
@@ -194,7 +194,7 @@ static void print_warnings(const struct gn_warnings *warnings) {
 static bool import_model(int argc, char **argv, struct gn_err *err) {
     long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     long machine_mb = pages > 0 && page > 0 ? (long)((long long)pages * page >> 20) : 4096;
-    long most_mb = machine_mb / 4 * 3;
+    long most_mb = machine_mb / 2;
     struct gn_import_opts opts = {.memory_mb = most_mb < 256    ? 256
                                                : most_mb < 2048 ? (int)most_mb
                                                                 : 2048,

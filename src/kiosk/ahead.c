@@ -177,7 +177,8 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     struct gn_show_staged *staged = &s->staged;
     struct gn_stage *stage = &s->stage;
     struct gn_loaded *loaded = staged->loaded;
-    const struct gn_loaded shown = {.scene = stage->scene, .pose = stage->pose};
+    const struct gn_loaded shown = {
+        .scene = stage->scene, .pose = stage->pose, .occluder = stage->occluder};
     gn_truth_drop(s); /* both are of the other scene */
     gn_view_close(&s->split.view, s->stage.gl);
     gn_view_stop(&stage->shown);
@@ -186,8 +187,10 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     staged->view.builder = NULL;
     stage->scene = loaded->scene;
     stage->pose = loaded->pose;
+    stage->occluder = loaded->occluder;
     loaded->scene = shown.scene;
     loaded->pose = shown.pose;
+    loaded->occluder = shown.occluder;
     gn_show_drop_staged(s);
     s->ahead.idle = false;
 }
@@ -326,6 +329,7 @@ static void show_wanted(struct gn_show_screen *s, int scene) {
         s->scene = scene;
         stage->shown.opts.view.orbit = (struct gn_orbit){0};
         gn_show_take_staged(s);
+        gn_show_list_again(s);
         gn_parts_loaded(&s->show->parts, GN_PART_LOAD_SCENE);
     }
     gn_show_enter(s);

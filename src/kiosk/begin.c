@@ -107,18 +107,19 @@ bool gn_show_look_at_first(const struct gn_show *s, struct gn_options *o, struct
     return gn_stage_look_build(look, o->settings, loaded->scene, s->warnings, err);
 }
 
-bool gn_show_begin(struct gn_show *s, struct gn_err *err) {
+bool gn_show_begin(struct gn_show *s, int scene, struct gn_err *err) {
     struct gn_show_screen *screen = &s->screen;
     const int frames = screen->stage.settings->run.frames;
     s->counts.most_frames = frames > 0 && !s->reload.first ? (uint64_t)frames : UINT64_MAX;
     screen->hand = (struct gn_show_hand){0};
     screen->stage.shown.rested_ns = 0;
-    gn_show_list_modes(s);
+    gn_show_list_modes(s, scene);
     gn_truth_drop(screen);
     screen->truth = (struct gn_show_truth){0};
     gn_view_close(&screen->split.view, screen->stage.gl);
     screen->split = (struct gn_show_split){0}; /* its mode is of the other list */
-    screen->kiosk = (struct gn_kiosk){.shown.mode = s->modes.first, .wanted.mode = s->modes.first};
+    const struct gn_kiosk_place first = {.mode = s->modes.first, .scene = scene};
+    screen->kiosk = (struct gn_kiosk){.shown = first, .wanted = first};
     screen->scene = gn_kiosk_scene(&screen->rules, &screen->kiosk.shown);
     if (!gn_show_look(s, screen->stage.scene, &screen->looks, err)) return false;
     gn_show_enter(screen);

@@ -65,7 +65,7 @@ static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_v
     const struct gn_show_modes *modes = &s->show->modes;
     const char *name = modes->names[view->caption_mode];
     const bool waits = view->mode != view->caption_mode, /* the picture is not of that yet */
-        only = modes->count == 1 && !s->rules.names_first;
+        only = modes->count == 1 && !s->rules.names_first && !s->rules.replays;
     switch (view->caption) {
     case GN_KIOSK_CAPTION_MODE:
         if (s->split.on)

@@ -4,6 +4,7 @@
 #include "core/arena.h"
 #include "core/clock.h"
 #include "kiosk/private.h"
+#include "stage/occlusion.h"
 
 #define ASK_NS (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
 
@@ -26,7 +27,8 @@ bool gn_show_wants_frame(const struct gn_show_screen *s) {
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
     return moves || differs || gn_parts_want_frame(&s->show->parts) || gn_show_bar_moves(s) ||
-           gn_truth_wants_frame(s) || gn_show_captions_due_ns(s) <= screen->seen_ns;
+           gn_truth_wants_frame(s) || gn_occluder_fades(s->stage.occluder) ||
+           gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* Fills a requested screenshot from this frame. */
@@ -38,6 +40,17 @@ static void fill_screenshot(struct gn_show_screen *s, struct gn_screenshot *shot
                                         f->output.turn_deg, &err);
     if (!rgba || !gn_gl_read_rgba8(s->stage.gl, rgba, &err) || !gn_screenshot_start(shot, &err))
         gn_screenshot_fail(shot, &err);
+}
+
+/* This picture is the start of a fade. */
+static void keep_picture(struct gn_show_screen *s) {
+    struct gn_err why = {0};
+    if (!gn_gl_keep(s->stage.gl, &why)) {
+        gn_problem_report(&s->show->problems, GN_PROBLEM_CONFIG, why.text);
+        s->rules.fade_ns = 0; /* disables fades */
+    }
+    s->fade.keeps = false;
+    s->fade.kept = true;
 }
 
 /* *behind: a filtered map is older than the pose, so another frame is due. */
@@ -75,19 +88,12 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
         gn_split_lay_over(s);
     else if (view.old > 0.0f)
         gn_gl_lay_over(s->stage.gl, view.old);
-    if (s->fade.keeps) { /* this picture is the start of a fade */
-        struct gn_err why = {0};
-        if (!gn_gl_keep(s->stage.gl, &why)) {
-            gn_problem_report(&s->show->problems, GN_PROBLEM_CONFIG, why.text);
-            s->rules.fade_ns = 0; /* disables fades */
-        }
-        s->fade.keeps = false;
-        s->fade.kept = true;
-    }
+    if (s->fade.keeps) keep_picture(s);
 
-    /* count allocations, except in the first frame and while a scene loads; GL objects not where a
-     * mode begins either: its maps are made then */
-    if (s->show->counts.frames++ > 0 && !gn_loader_is_busy(s->show->scenes.loader)) {
+    /* count allocations, except in the first frame and while a thread loads or makes something; GL
+     * objects not where a mode begins either: its maps are made then */
+    if (s->show->counts.frames++ > 0 && !gn_loader_is_busy(s->show->scenes.loader) &&
+        !gn_occluder_works(s->stage.occluder)) {
         s->show->counts.allocations += gn_alloc_count() - allocations;
         if (view.mode == s->drawn.mode && view.scene == s->drawn.scene)
             s->show->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;

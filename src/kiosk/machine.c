@@ -95,16 +95,22 @@ static bool keeps_dark(const struct gn_kiosk_event *e) {
 typedef void act_fn(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                     const struct gn_kiosk_event *e);
 
+static void step_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                      const struct gn_kiosk_event *e, int by) {
+    want_mode(rules, s, by);
+    if (rules->replays && modes_of(rules) == 1 && !gn_kiosk_waits(s))
+        enter_clips(rules, s, e->time_ns, false);
+    set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
+}
+
 static void act_next(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                      const struct gn_kiosk_event *e) {
-    want_mode(rules, s, 1);
-    set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
+    step_mode(rules, s, e, 1);
 }
 
 static void act_prev(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                      const struct gn_kiosk_event *e) {
-    want_mode(rules, s, -1);
-    set_caption(s, GN_KIOSK_CAPTION_MODE, e->time_ns);
+    step_mode(rules, s, e, -1);
 }
 
 static void act_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,

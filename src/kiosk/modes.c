@@ -69,29 +69,91 @@ void gn_show_take_rules(struct gn_show_screen *s) {
     s->rules.names_first = s->show->config.options->is_lesson;
     s->rules.restarts = 0;
     for (int i = 0; i < s->show->modes.count; i++)
-        if (gn_show_settings(s->show, i)->scene.animation_restart) s->rules.restarts |= 1u << i;
+        if (s->rules.replays || gn_show_settings(s->show, i)->scene.animation_restart)
+            s->rules.restarts |= 1u << i;
 }
 
-void gn_show_list_modes(struct gn_show *s) {
+bool gn_show_offers(const struct gn_show *s, const struct gn_options *o) {
+    const char *backend = s->config.place ? s->config.place->backend : o->all[0].display.backend;
+    return gn_options_leave_modes(o) && strcmp(backend, "window") != 0;
+}
+
+/* As if kiosk.ini had a section for each. A second one, of the turntable, takes the place of the
+ * settings of the first technique, which is none of the modes. */
+static void list_offers(struct gn_show *s, int scene) {
+    const struct gn_stage *stage = &s->screen.stage;
+    struct gn_options *o = s->config.options;
+    struct gn_show_modes *modes = &s->modes;
+    gn_offers_build(&(struct gn_offers_of){.scene = stage->scene,
+                                           .settings = &o->all[0],
+                                           .clips = stage->pose.at.clips,
+                                           .paths = s->scenes.paths,
+                                           .path_count = s->scenes.listed,
+                                           .shown = scene},
+                    &modes->offers);
+    modes->offered = true;
+    modes->base = modes->offers.first;
+    for (int i = 0; i < modes->offers.count; i++) {
+        const struct gn_offer *offer = &modes->offers.items[i];
+        add_mode(modes, offer->name, offer->turns ? 1 : 0);
+        if (!offer->turns) continue;
+        const double rate = o->all[0].scene.turntable_deg_s == 0.0 ? GN_OFFER_TURNTABLE_DEG_S : 0.0;
+        o->all[1] = o->all[0];
+        gn_settings_put(&o->all[1], gn_option_find_key("scene", "turntable"), &rate, GN_SOURCE_MODE,
+                        offer->name);
+    }
+}
+
+/* That the options resume, else the one that the settings show. */
+static int first_offer(struct gn_show *s) {
+    const int found = gn_show_find_mode(&s->modes, s->config.options->resumes);
+    s->config.options->resumes = NULL;
+    return found >= 0 && s->modes.offers.items[found].scene < 0 ? found : s->modes.offers.first;
+}
+
+static void set_offer_rules(const struct gn_offers *offers, struct gn_kiosk_rules *rules) {
+    rules->first_mode = offers->home;
+    rules->replays = offers->replays;
+    rules->own_camera = UINT32_MAX;
+    for (int i = 0; i < offers->count; i++)
+        rules->own_scene[i] = (uint8_t)(1 + offers->items[i].scene);
+}
+
+void gn_show_list_modes(struct gn_show *s, int scene) {
     const struct gn_options *o = s->config.options;
     const struct gn_scene_list *list = &o->all[0].scene.list;
     s->modes = (struct gn_show_modes){.base = -1};
     s->scenes.count = s->scenes.listed = list->count > 0 ? list->count : 1;
     for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
     for (int i = 0; i < o->mode_count; i++) add_mode(&s->modes, o->modes[i].name, 1 + i);
-    if (o->mode_count == 0) list_techniques(s);
-    s->modes.first = mode_or_base(&s->modes, o->settings->mode);
+    if (gn_show_offers(s, o))
+        list_offers(s, scene);
+    else if (o->mode_count == 0)
+        list_techniques(s);
+    s->modes.first = s->modes.offered ? first_offer(s) : mode_or_base(&s->modes, o->settings->mode);
     s->screen.rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
                                               .scene_count = s->scenes.listed,
                                               .first_mode = mode_or_base(&s->modes, o->home)};
+    if (s->modes.offered) set_offer_rules(&s->modes.offers, &s->screen.rules);
     gn_show_take_rules(&s->screen);
-    for (int i = 0; i < s->modes.count; i++) {
+    for (int i = 0; i < s->modes.count && !s->modes.offered; i++) {
         const struct gn_settings *mode = gn_show_settings(s, i);
         if (gn_settings_from(mode, scene.path) == GN_SOURCE_MODE)
             s->screen.rules.own_scene[i] = (uint8_t)(1 + find_scene(&s->scenes, mode->scene.path));
         if (gn_settings_from(mode, scene.camera) == GN_SOURCE_MODE)
             s->screen.rules.own_camera |= 1u << i;
     }
+}
+
+void gn_show_list_again(struct gn_show_screen *s) {
+    struct gn_show *show = s->show;
+    struct gn_err unused = {0};
+    if (!show->modes.offered) return;
+    gn_show_list_modes(show, s->scene);
+    s->kiosk.shown = s->kiosk.wanted =
+        (struct gn_kiosk_place){.mode = show->modes.first, .scene = s->scene};
+    s->kiosk.camera = s->kiosk.bad_modes = 0;
+    gn_show_look(show, s->stage.scene, &s->looks, &unused); /* as when it was loaded: not false */
 }
 
 /* ---- one of them ---- */
@@ -103,9 +165,12 @@ const struct gn_settings *gn_show_settings(const struct gn_show *s, int mode) {
 bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
                   struct gn_show_looks *looks, struct gn_err *err) {
     looks->ready = looks->made = 0;
-    for (int i = 0; i < s->modes.count; i++)
-        if (!gn_stage_look_build(&looks->of[i], gn_show_settings(s, i), scene, s->warnings, err))
-            return false;
+    for (int i = 0; i < s->modes.count; i++) {
+        const struct gn_settings *settings = gn_show_settings(s, i);
+        if (!gn_stage_look_build(&looks->of[i], settings, scene, s->warnings, err)) return false;
+        if (s->modes.offered)
+            gn_offer_apply(&s->modes.offers.items[i], settings, scene, &looks->of[i]);
+    }
     return true;
 }
 

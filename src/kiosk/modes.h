@@ -3,17 +3,21 @@
 #define GN_KIOSK_MODES_H
 
 #include "kiosk/machine.h"
+#include "kiosk/offers.h"
+#include "options/options.h"
 #include "stage/stage.h"
 
 struct gn_show;
 struct gn_show_screen;
 
-/* Modes: those of the INI file, else the techniques. */
+/* Modes: those of the INI file, else what the scene offers, else the techniques. */
 struct gn_show_modes {
     int count, first;
     const char *names[GN_KIOSK_MODES_MAX];
     int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
     int base;                         /* the one without settings of its own; -1: none */
+    bool offered;                     /* they are these: */
+    struct gn_offers offers;
 };
 /* Of one scene, for each mode: how it is drawn, and about its programs. */
 struct gn_show_looks {
@@ -21,8 +25,14 @@ struct gn_show_looks {
     uint32_t ready, made; /* bits 1 << mode: they are there; they were made at least once */
 };
 
-/* Fills modes, scenes and rules from the options. */
-void gn_show_list_modes(struct gn_show *show);
+/* Whether with these options the modes are what the scene offers (gn_options_leave_modes()). In a
+ * window they are the techniques. */
+bool gn_show_offers(const struct gn_show *show, const struct gn_options *options);
+/* Fills modes, scenes and rules from the options and the stage's scene, which is the one of that
+ * place in the list of next-scene. */
+void gn_show_list_modes(struct gn_show *show, int scene);
+/* Another scene is shown: its own offers, where the modes are offers. */
+void gn_show_list_again(struct gn_show_screen *screen);
 /* -1: no mode of that name. */
 int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
 const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);

@@ -55,5 +55,8 @@ int64_t gn_show_turntable_due_ns(const struct gn_show_screen *s) {
 }
 
 void gn_show_step_turntable(struct gn_show_screen *s, int64_t seen_ns, int64_t scene_ns) {
-    s->stage.shown.rested_ns = gn_turntable_step(&s->hand.turntable, rest_ns(s), seen_ns, scene_ns);
+    struct gn_turntable *turntable = &s->hand.turntable;
+    s->stage.shown.rested_ns = gn_turntable_step(turntable, rest_ns(s), seen_ns, scene_ns);
+    /* by a button it is switched on where the camera stands; modes of a file turn meanwhile */
+    turntable->off = s->show->modes.offered && s->stage.settings->scene.turntable_deg_s == 0.0;
 }

@@ -119,8 +119,9 @@ bool gn_show_load_nothing(struct gn_show *show, struct gn_err *err);
 bool gn_show_look_at_first(const struct gn_show *show, struct gn_options *options,
                            struct gn_loaded *loaded, struct gn_stage_look *look,
                            char why[GN_SHOW_WHY], struct gn_err *err);
-/* After the options and the stage are loaded: lists modes and scenes, enters the first. */
-bool gn_show_begin(struct gn_show *show, struct gn_err *err);
+/* After the options and the stage are loaded: lists modes and scenes, enters the first. scene: the
+ * place of the stage's scene in the list of next-scene. */
+bool gn_show_begin(struct gn_show *show, int scene, struct gn_err *err);
 
 /* ---- events.c: actions as events of the machine ---------------------------------------------- */
 

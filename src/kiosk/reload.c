@@ -48,9 +48,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     screen->stage.settings = options->settings;
     screen->stage.shown.opts.view.orbit = (struct gn_orbit){0};
     const struct gn_kiosk before = screen->kiosk;
-    const bool begun = gn_show_begin(s, err);
-    screen->kiosk.shown.scene = screen->kiosk.wanted.scene = r->scene;
-    screen->scene = gn_kiosk_scene(&screen->rules, &screen->kiosk.shown);
+    const bool begun = gn_show_begin(s, r->scene, err);
     for (int i = GN_PROBLEM_CONFIG; i <= GN_PROBLEM_SCENE; i++) gn_problem_cure(&s->problems, i);
     if (!begun || (!keeps_display && !gn_show_open_display(screen, err))) return false;
     gn_show_open_captions(screen);
@@ -110,8 +108,14 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
 
 /* Stays in the mode of the same name. */
 static void choose_mode(const struct gn_show *s, struct gn_options *options) {
+    const char *name = s->modes.names[s->screen.kiosk.wanted.mode];
+    if (gn_show_offers(s, options)) {
+        if (!options->resumes || strcmp(options->resumes, name) != 0)
+            options->resumes = gn_arena_strdup(&options->arena, name);
+        return;
+    }
     if (s->screen.kiosk.wanted.mode == s->modes.base && options->mode_count == 0) return;
-    const int found = gn_options_find_mode(options, s->modes.names[s->screen.kiosk.wanted.mode]);
+    const int found = gn_options_find_mode(options, name);
     if (found) options->settings = &options->all[found];
 }
 
@@ -295,9 +299,11 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     s->screen.stage = (struct gn_stage){.settings = s->config.options->settings,
                                         .scene = loaded->scene,
                                         .pose = loaded->pose,
+                                        .occluder = loaded->occluder,
                                         .shown.pose = &s->screen.stage.pose};
     loaded->scene = NULL;
     loaded->pose = (struct gn_pose){0};
+    loaded->occluder = NULL;
     gn_show_drop_reload(s);
     if (ok && missing[0]) report_missing(s, missing);
     return ok;

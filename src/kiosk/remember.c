@@ -60,6 +60,10 @@ static void recall_mode(const struct gn_show *s, struct gn_options *o) {
     const struct gn_settings *base = &o->all[0];
     const int found = gn_options_find_mode(o, mode);
     if (!mode[0] || o->settings->run.mode || o->is_lesson) return;
+    if (gn_show_offers(s, o)) {
+        o->resumes = gn_arena_strdup(&o->arena, mode);
+        return;
+    }
     if (o->mode_count == 0 && (gn_settings_from(base, render.shadow) == GN_SOURCE_FLAG ||
                                strcmp(mode, gn_techniques[base->render.shadow.items[0]].name) == 0))
         return;
@@ -106,8 +110,8 @@ static void begin_state(void *part) {
         gn_warn(s->warnings, "state: %s; starting as configured", err.text);
     memcpy(m->good[0], m->state.scene, PATH_MAX);
     memcpy(m->good[1], m->state.past, PATH_MAX);
-    recall_mode(s, o);
     recall_scene(s, o);
+    recall_mode(s, o);
     begin_counts(&m->state);
 }
 

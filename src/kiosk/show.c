@@ -89,11 +89,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     gn_parts_begin(&s->parts);
     if (!gn_show_load_first(s, err)) return false;
     gn_show_open_captions(&s->screen);
-    if (!gn_show_begin(s, err)) return false;
-    if (!s->reload.first) { /* where the list of next-scene was */
-        s->screen.kiosk.shown.scene = s->screen.kiosk.wanted.scene = s->first.scene;
-        s->screen.scene = gn_kiosk_scene(&s->screen.rules, &s->screen.kiosk.shown);
-    }
+    if (!gn_show_begin(s, s->reload.first ? 0 : s->first.scene, err)) return false;
     if (!gn_show_open_display(&s->screen, err)) return false;
     if (!gn_show_open_input(s, err)) { /* a script is of the command line */
         if (s->screen.stage.settings->run.input_script) return false;

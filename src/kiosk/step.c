@@ -1,14 +1,19 @@
 /* A step of a screen: its events, its machine, then a frame or a piece of work ahead. */
+#include "core/clock.h"
 #include "kiosk/private.h"
+#include "stage/occlusion.h"
+
+static const int64_t POLL_NS = GN_NS_PER_S / 10;
 
 int64_t gn_show_screen_due_ns(const struct gn_show_screen *s) {
     if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
     const int64_t now_ns = gn_loop_now_ns(s->show->loop);
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
     if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
-    const int64_t others_ns[] = {gn_show_bar_due_ns(s), gn_viewer_due_ns(s), gn_truth_due_ns(s),
-                                 gn_show_turntable_due_ns(s)};
-    for (int i = 0; i < 4; i++)
+    const int64_t others_ns[] = {
+        gn_show_bar_due_ns(s), gn_viewer_due_ns(s), gn_truth_due_ns(s), gn_show_turntable_due_ns(s),
+        gn_occluder_works(s->stage.occluder) ? now_ns + POLL_NS : INT64_MAX};
+    for (int i = 0; i < 5; i++)
         if (others_ns[i] < at_ns) at_ns = others_ns[i];
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
@@ -52,6 +57,7 @@ bool gn_show_step_picture(struct gn_show_screen *s, struct gn_err *err) {
     gn_show_advance(s);
     gn_show_enter_set(s);
     gn_truth_step(s);
+    gn_occluder_step(s->stage.occluder, gn_loop_now_ns(s->show->loop));
     ahead->has_turn = ahead->alone && !ahead->has_turn && gn_show_has_work(s);
     if (gn_show_wants_frame(s) && !ahead->has_turn) {
         if (!gn_show_frame(s, err)) return false;

@@ -15,6 +15,7 @@ int64_t gn_turntable_step(struct gn_turntable *t, int64_t rest_ns, int64_t seen_
     if (t->used_ns != 0 && rest_ns > 0 && t->seen_ns != 0 && end_ns > t->seen_ns && passed_ns > 0)
         share = end_ns >= seen_ns ? 1.0 : (double)(end_ns - t->seen_ns) / (double)passed_ns;
     t->rested_ns += (int64_t)(share * (double)(scene_ns - t->scene_ns));
+    if (t->off) t->rested_ns = scene_ns;
     t->seen_ns = seen_ns;
     t->scene_ns = scene_ns;
     return t->rested_ns;

@@ -10,6 +10,7 @@ struct gn_turntable {          /* zeroed: not used yet */
     int64_t used_ns;           /* monotonic: the last move by hand; 0: none */
     int64_t seen_ns, scene_ns; /* of the last frame: when it is on the screen, the scene's time */
     int64_t rested_ns;         /* of the scene's time */
+    bool off;                  /* from that frame to the next, which it begins anew with */
 };
 
 void gn_turntable_use(struct gn_turntable *turntable, int64_t now_ns);

@@ -49,6 +49,15 @@ bool gn_buttons_have_key(const struct gn_buttons *buttons, unsigned key) {
     return false;
 }
 
+bool gn_buttons_name_mode(const struct gn_buttons *buttons) {
+    for (int i = 0; i < buttons->count; i++)
+        for (int g = 0; g < GN_GESTURE_COUNT; g++) {
+            const struct gn_binding *on = &buttons->items[i].on[g];
+            if (on->bound && on->action.kind == GN_ACTION_MODE) return true;
+        }
+    return false;
+}
+
 struct gn_action gn_buttons_action(const struct gn_buttons *buttons,
                                    const struct gn_gesture_event *event) {
     static const struct gn_action nothing;

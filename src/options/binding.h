@@ -26,6 +26,8 @@ void gn_buttons_defaults(struct gn_buttons *out);
 int gn_buttons_opts(const struct gn_buttons *buttons, struct gn_button_opts *out);
 /* Whether a button has that key (enum gn_key). */
 bool gn_buttons_have_key(const struct gn_buttons *buttons, unsigned key);
+/* Whether one of its actions is to go to a mode. */
+bool gn_buttons_name_mode(const struct gn_buttons *buttons);
 /* The action of a gesture; kind GN_ACTION_NONE: none. */
 struct gn_action gn_buttons_action(const struct gn_buttons *buttons,
                                    const struct gn_gesture_event *event);

@@ -25,7 +25,7 @@ GN_COMMAND(CTL, ctl, .name = "ctl", .usage = "ctl [OPTION..] COMMAND [WORD..]", 
            .examples = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
            .words = GN_WORDS_REQUEST, .most = 1 + GN_CTL_WORDS_MAX, .takes = "quote what has spaces", .config = GN_CONFIG_OPTIONAL, .config_unless = "socket")
 GN_COMMAND(COMPARE, compare, .name = "compare", .usage = "compare [OPTION..] A B", .what = "measures how much two pictures differ, .png or .pfm",
-           .examples = {"gnomon compare a.png b.png --diff difference.png", "gnomon compare a.pfm truth.pfm --json"},
+           .examples = {"gnomon compare a.png b.png --diff difference.png", "gnomon compare a.pfm truth.pfm --shadows --json"},
            .words = GN_WORDS_FILES, .least = 2, .most = 2, .expects = "two pictures, A and B", .takes = "it takes two pictures")
 GN_COMMAND(SCORE, score, .name = "score", .usage = "score [OPTION..] PICTURE|FOLDER", .what = "measures shadows in pictures of the open benchmark, of any engine",
            .examples = {"gnomon score picture.pfm --truth field-sun-00", "gnomon score build/benchmark/pcf --csv"},

@@ -93,6 +93,11 @@ void gn_options_resolve(struct gn_options *options) {
     }
 }
 
+bool gn_options_leave_modes(const struct gn_options *options) {
+    return options->mode_count == 0 && options->all[0].scene.path && !options->all[0].run.mode &&
+           !(options->buttons && gn_buttons_name_mode(options->buttons));
+}
+
 int gn_options_find_mode(const struct gn_options *options, const char *name) {
     for (int i = 1; i < options->all_count; i++)
         if (strcmp(options->all[i].mode, name) == 0) return i;

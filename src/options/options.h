@@ -18,7 +18,9 @@ struct gn_options {
     int mode_count;
     const char *home; /* the mode that a kiosk begins in and returns to, whichever is shown; NULL:
                          the one without settings of its own */
-    bool is_lesson;   /* the modes are its steps */
+    const char *resumes; /* the same of modes that are made of the scene once it is there (kiosk);
+                            NULL: the first; in the arena */
+    bool is_lesson;      /* the modes are its steps */
     const struct gn_buttons *buttons; /* of the INI file; NULL: it has none */
     const char *config_path;          /* the INI file that was read, or NULL */
     const char *content; /* the folder that was laid over it (content.h), without links; or NULL */
@@ -51,9 +53,12 @@ bool gn_options_set(struct gn_options *options, const struct gn_option_row *row,
                     enum gn_source source, const char *label, struct gn_err *err);
 
 /* Makes the settings of each mode, once all else is set: those without a mode, with what the mode
- * overrides where no flag does. Where the INI file has no modes, or there is none, the modes are
+ * overrides where no flag does. Where the INI file has no modes, or there is none, they are here
  * the techniques, in the order of their table. */
 void gn_options_resolve(struct gn_options *options);
+/* Whether a kiosk's modes are what its scene offers: that is the user's own, and neither the file,
+ * --mode nor a button names a mode. */
+bool gn_options_leave_modes(const struct gn_options *options);
 /* The place in `all` of the mode of that name; 0: there is none. */
 int gn_options_find_mode(const struct gn_options *options, const char *name);
 /* The modes of the INI file for a message: ' "Day", "Night"'; "" without any. */

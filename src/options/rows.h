@@ -78,6 +78,8 @@ GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_N
           .help = "factor on the environment's light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_strength))
 GN_OPTION(.name = "environment-show", .section = "render", .kind = GN_KIND_CHOICE, .choices = environment_shows, .value = "no|yes|blur", .fallback = "no",
           .help = "draw the environment as the background, unless that is transparent", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_show))
+GN_OPTION(.name = "occlusion", .section = "render", .kind = GN_KIND_CHOICE, .choices = occlusions, .value = "auto|none", .fallback = "auto",
+          .help = "less light from all directions where the model itself is in its way; auto: where an environment lights the model, on all of it that no clip moves, while the shape is not too fine for the 32,768 cubes that it is measured in", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
           .help = "draw a gizmo at each light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
 GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,
@@ -243,6 +245,14 @@ GN_OPTION(.name = "tolerance", .kind = GN_KIND_NUMBER, .max = 1e9, .value = "X",
           .help = "how much a channel may differ, where white is 1", .commands = BIT(COMPARE), .offset = FIELD(run.tolerance))
 GN_OPTION(.name = "share", .kind = GN_KIND_NUMBER, .max = 100, .value = "PERCENT", .unit = "per cent", .fallback = "0",
           .help = "how many of the pixels may differ by more; else the exit status is 3", .commands = BIT(COMPARE), .offset = FIELD(run.share))
+GN_OPTION(.name = "shadows", .kind = GN_KIND_FLAG,
+          .help = "A and B are the visibility of a light, B by rays: also measure how torn (tear) and grainy (grain) the shadows of A look, in per cent per pixel", .commands = BIT(COMPARE), .offset = FIELD(run.shadows.measure))
+GN_OPTION(.name = "distance", .kind = GN_KIND_PATH, .value = "FILE",
+          .help = "with --shadows, distances in the same picture (--aov distance): shadows are not measured across edges of depth, and those on an unseen floor by themselves", .commands = BIT(COMPARE), .offset = FIELD(run.shadows.distance))
+GN_OPTION(.name = "normal", .kind = GN_KIND_PATH, .value = "FILE",
+          .help = "with --shadows, normals in the same picture (--aov normal): shadows are not measured across edges", .commands = BIT(COMPARE), .offset = FIELD(run.shadows.normal))
+GN_OPTION(.name = "to-light", .kind = GN_KIND_POINT, .min = -1e6, .max = 1e6, .value = "auto|X,Y,Z", .fallback = "auto",
+          .help = "with --normal, direction to the light: shadows count by how much of its light a surface gets, a level floor's being 1; auto: all count alike", .commands = BIT(COMPARE), .offset = FIELD(run.shadows.to_light))
 GN_OPTION(.name = "truth", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "scene of the benchmark that the picture shows; without it, the picture is called as the scene", .commands = BIT(SCORE), .offset = FIELD(run.truth))
 GN_OPTION(.name = "benchmark", .kind = GN_KIND_PATH, .value = "DIR", .fallback = "assets/benchmark",

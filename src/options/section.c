@@ -41,7 +41,7 @@ const struct gn_section_row gn_section_rows[GN_SECTION_COUNT] = {
     {.title = "schedule", .heading = "hours", .place = 7, .of_machine = true,
      .about = "When the screen is on, by local time."},
     {.title = "mode \"NAME\"", .has = is_of_mode, .takes_whole_names = true, .take = take_modes,
-     .about = "Any number of modes: keys of [scene], [render], [camera] and [light] that differ in it. The first one is shown at the start; without any, each technique is a mode."},
+     .about = "Any number of modes: keys of [scene], [render], [camera] and [light] that differ in it. The first one is shown at the start. Without any, and with a scene of your own, next and prev go through what that has: its cameras; the scenes of [scene], after the cameras of the one that is shown; its variants of materials; of one of each, they play the clip from its beginning; without a clip, they switch a turntable on and off. Each has the name that it has in the file, else its number (\"Camera 2\"). What an option or gnomon ctl set has chosen stays. With the sundial inside the program, in a window, and where --mode or a button names a technique, each technique is a mode."},
     {.title = "light \"NAME\"", .has = is_of_light, .take = take_lights,
      .about = "Settings of the lights of that name: their node's, or their own. They take the place of what the scene says of them and of [render]; a mode, an option and gnomon ctl set beat them. \"shadow = none\" always holds. intensity is in candela, of a directional light in lux, as in the file; \"on = no\" switches a light off. Other keys are as in [render] and [light]:"},
     {.title = "button \"NAME\"", .rows = gn_button_rows, .row_count = GN_BUTTON_ROWS, .one_word = true, .take = gn_buttons_take,

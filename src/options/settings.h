@@ -92,6 +92,7 @@ struct gn_scene_settings {
     double floor_m;          /* y of the shadow catcher; NAN: automatic, INFINITY: none */
     double texture_limit_px; /* NAN: automatic, INFINITY: none */
 };
+enum gn_occlusion_setting { GN_OCCLUSION_AUTO, GN_OCCLUSION_NONE };
 enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
     struct gn_size size;
@@ -116,6 +117,7 @@ struct gn_render_settings {
     const char *environment; /* "auto", "studio", "none" or a file; NULL: auto */
     double environment_turn_deg, environment_strength;
     int environment_show; /* enum gn_environment_show */
+    int occlusion;        /* enum gn_occlusion_setting */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */
@@ -183,14 +185,19 @@ struct gn_run_settings { /* of this run of the program: flags only */
     const char *caption; /* text on the picture, or NULL */
     int frames;
     double fps;
-    int samples;                   /* points of a light, of technique truth */
-    const char *diff;              /* of compare: a file for the difference, or NULL */
-    double tolerance, share;       /* of compare */
-    const char *truth, *benchmark; /* of score: a scene's name, or NULL; the folder of scenes */
-    double reach;                  /* of score: of a filter, texels */
-    bool make_truth;               /* of score */
-    double simplify;               /* of bake: share of the triangles */
-    bool rollback;                 /* of take */
+    int samples;             /* points of a light, of technique truth */
+    const char *diff;        /* of compare: a file for the difference, or NULL */
+    double tolerance, share; /* of compare */
+    struct {
+        bool measure;
+        const char *normal, *distance; /* files, or NULL */
+        double to_light[3];            /* any length; NAN: auto */
+    } shadows;                         /* of compare */
+    const char *truth, *benchmark;     /* of score: a scene's name, or NULL; the folder of scenes */
+    double reach;                      /* of score: of a filter, texels */
+    bool make_truth;                   /* of score */
+    double simplify;                   /* of bake: share of the triangles */
+    bool rollback;                     /* of take */
     bool csv, move_lights, move_casters; /* of bench */
     bool plan, json, self_test, stats, verbose, version, help;
 };

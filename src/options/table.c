@@ -43,15 +43,20 @@ static const struct gn_choice map_formats[] = {
 };
 static const struct gn_choice environments[] = {{"auto", 0}, {"studio", 0}, {"none", 0}, {0}};
 static const struct gn_choice states[] = {{"no", 0}, {0}};
-static const struct gn_choice aovs[] = {
-    {"color", GN_AOV_COLOR},       {"visibility", GN_AOV_VISIBILITY},
-    {"distance", GN_AOV_DISTANCE}, {"normal", GN_AOV_NORMAL},
-    {"map", GN_AOV_COUNT},         {0}};
+static const struct gn_choice aovs[] = {{"color", GN_AOV_COLOR},
+                                        {"visibility", GN_AOV_VISIBILITY},
+                                        {"distance", GN_AOV_DISTANCE},
+                                        {"normal", GN_AOV_NORMAL},
+                                        {"occlusion", GN_AOV_OCCLUSION},
+                                        {"map", GN_AOV_COUNT},
+                                        {0}};
 static const struct gn_choice outputs[] = {
     {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
 static const struct gn_choice tones[] = {{"auto", GN_TONE_AUTO}, {"neutral", GN_TONE_NEUTRAL},
                                          {"aces", GN_TONE_ACES}, {"agx", GN_TONE_AGX},
                                          {"none", GN_TONE_NONE}, {0}};
+static const struct gn_choice occlusions[] = {
+    {"auto", GN_OCCLUSION_AUTO}, {"none", GN_OCCLUSION_NONE}, {0}};
 static const struct gn_choice environment_shows[] = {{"no", GN_ENVIRONMENT_SHOW_NO},
                                                      {"yes", GN_ENVIRONMENT_SHOW_SHARP},
                                                      {"blur", GN_ENVIRONMENT_SHOW_BLUR},

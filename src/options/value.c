@@ -197,7 +197,7 @@ static void print_mode(const void *field, const struct gn_kind_output *to) {
 
 const char *gn_value_word(const struct gn_option_row *row, int index) {
     if (row->kind == GN_KIND_TECHNIQUES)
-        return index < GN_TECHNIQUE_ALL ? gn_techniques[index].name : NULL;
+        return index <= GN_TECHNIQUE_TRUTH ? gn_techniques[index].name : NULL;
     return row->choices ? row->choices[index].name : NULL;
 }
 

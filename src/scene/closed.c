@@ -73,8 +73,8 @@ static bool bodies_are_outward(struct welder *w) {
     return true;
 }
 
-bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry) {
-    if (geometry->index_count < 12 || geometry->flat) return false;
+void gn_geometry_test_closed(const struct gn_gltf *g, struct gn_geometry *geometry) {
+    if (geometry->index_count < 12 || geometry->flat) return;
     size_t room = gn_gltf_room(g);
     struct gn_arena arena = {.limit = room ? room : 1};
     uint32_t count = geometry->vertex_count, size = 16;
@@ -105,7 +105,7 @@ bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *ge
         w.body[v] = v;
     }
 
-    const bool closed = has_memory && edges_meet(&w) && bodies_are_outward(&w);
+    geometry->watertight = has_memory && edges_meet(&w);
+    geometry->closed = geometry->watertight && bodies_are_outward(&w);
     gn_arena_finish(&arena);
-    return closed;
 }

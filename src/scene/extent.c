@@ -195,9 +195,7 @@ static uint64_t count_moving(const struct gn_pose *pose) {
     return count;
 }
 
-/* How long it takes until all that is played has been seen together: clips of different length meet
- * differently each time. */
-static int64_t find_period(const struct gn_pose *pose) {
+int64_t gn_scene_period_ns(const struct gn_pose *pose) {
     int64_t longest_ns = 0;
     bool differ = false;
     for (uint32_t i = 0; i < pose->scene->animation.clip_count; i++) {
@@ -252,7 +250,7 @@ static int count_deformed_poses(struct measure *m) {
 /* Of the clips that the pose plays; *left: what may still be posed. */
 static void add_clips(struct measure *m, struct gn_pose *pose, uint64_t *left, struct hull *hull) {
     const uint64_t moving = count_moving(pose), poses = *left / moving;
-    const int64_t period_ns = find_period(pose);
+    const int64_t period_ns = gn_scene_period_ns(pose);
     const int most = count_deformed_poses(m);
     const int cells = poses > (uint64_t)most ? most : poses > FEW_POSES ? (int)poses : FEW_POSES;
     int64_t times[POSES];

@@ -10,8 +10,9 @@ enum {
     CELLS = 32,     /* of the model's footprint, to each side */
     WORK = 1 << 24, /* triangles and cells that they are over; no more are looked at */
 };
-/* A floor covers this share of the footprint, this near the model's lowest point. */
-static const float LEAST_COVERED = .6f, LOWEST = .1f;
+/* A floor covers this share of the footprint, this near the model's lowest point, and this share of
+ * all of it where what faces down, of both sides, is the underside of what lies above. */
+static const float LEAST_COVERED = .6f, LOWEST = .1f, LEAST_OF_ALL = .2f;
 /* Half its side, in half diagonals of the model: the shadow of a sun 7 degrees high is on it. */
 static const float REACH = 8;
 /* Below the model, in diagonals of it: a flat underside is not drawn into. */
@@ -19,16 +20,20 @@ static const float BELOW = 2e-4f;
 
 struct footprint {
     const struct gn_box *box;
-    float highest; /* what lies above is no floor */
+    float highest; /* what lies above is no floor, but a roof */
     int64_t work_left;
-    bool covered[CELLS][CELLS];
+    struct cells {
+        bool ground[CELLS][CELLS], underside[CELLS][CELLS], roofed[CELLS][CELLS];
+    } all, own;            /* of the item that is looked at: */
+    int first[2], last[2]; /* what it has marked lies between these; x and z */
 };
 
-/* Marks the cells whose middle a triangle covers that faces up. */
+/* Marks the cells whose middle a triangle covers that is seen from above, or that is a roof. */
 static void mark_triangle(struct footprint *f, vec3 corner[3], bool mirrored, bool both_sides) {
     float at[3][2];
+    bool is_roof = false;
     for (int i = 0; i < 3; i++) {
-        if (corner[i][1] > f->highest) return;
+        is_roof |= corner[i][1] > f->highest;
         for (int k = 0; k < 2; k++)
             at[i][k] = (corner[i][2 * k] - f->box->min[2 * k]) /
                        (f->box->max[2 * k] - f->box->min[2 * k]) * (float)CELLS;
@@ -37,14 +42,18 @@ static void mark_triangle(struct footprint *f, vec3 corner[3], bool mirrored, bo
     float area = (at[1][1] - at[0][1]) * (at[2][0] - at[0][0]) -
                  (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]);
     if (mirrored) area = -area;
-    if (both_sides) area = fabsf(area);
-    if (!(area > 0)) return;
+    if (area == 0 || (area < 0 && !both_sides && !is_roof)) return;
+    bool(*marks)[CELLS] = is_roof ? f->own.roofed : area < 0 ? f->own.underside : f->own.ground;
     int first[2], last[2];
     for (int k = 0; k < 2; k++) {
         first[k] = (int)glm_clamp(floorf(fminf(fminf(at[0][k], at[1][k]), at[2][k])), 0, CELLS - 1);
         last[k] = (int)glm_clamp(ceilf(fmaxf(fmaxf(at[0][k], at[1][k]), at[2][k])), 0, CELLS - 1);
     }
     f->work_left -= (int64_t)(last[0] - first[0] + 1) * (last[1] - first[1] + 1);
+    for (int k = 0; k < 2; k++) {
+        if (first[k] < f->first[k]) f->first[k] = first[k];
+        if (last[k] > f->last[k]) f->last[k] = last[k];
+    }
     for (int z = first[1]; z <= last[1]; z++)
         for (int x = first[0]; x <= last[0]; x++) {
             const float p[2] = {(float)x + .5f, (float)z + .5f};
@@ -54,32 +63,68 @@ static void mark_triangle(struct footprint *f, vec3 corner[3], bool mirrored, bo
                 sides +=
                     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) >= 0 ? 1 : -1;
             }
-            if (sides == 3 || sides == -3) f->covered[z][x] = true;
+            if (sides == 3 || sides == -3) marks[z][x] = true;
         }
+}
+
+/* What faces up inside a body, under a roof of its own, is no ground. Returns whether the item has
+ * an underside. */
+static bool add_item(struct footprint *f) {
+    bool has_underside = false;
+    for (int z = f->first[1]; z <= f->last[1]; z++)
+        for (int x = f->first[0]; x <= f->last[0]; x++) {
+            f->all.ground[z][x] |= f->own.ground[z][x] && !f->own.roofed[z][x];
+            f->all.underside[z][x] |= f->own.underside[z][x];
+            f->all.roofed[z][x] |= f->own.roofed[z][x];
+            has_underside |= f->own.underside[z][x];
+            f->own.ground[z][x] = f->own.underside[z][x] = f->own.roofed[z][x] = false;
+        }
+    for (int k = 0; k < 2; k++) f->first[k] = CELLS, f->last[k] = -1;
+    return has_underside;
+}
+
+/* Marks the cells of items that reach down to where a floor is, or of those that do not. Returns
+ * whether one has an underside. */
+static bool mark_items(struct footprint *f, const struct gn_scene *scene,
+                       const struct gn_pose *pose, bool low) {
+    bool has_underside = false;
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        const struct gn_pose_item *posed = &pose->items[i];
+        const struct gn_item *item = &scene->items[i];
+        const struct gn_geometry *geometry = &scene->geometries[item->geometry];
+        if (!posed->visible || !item->receives) continue;
+        if ((posed->box_ws.min[1] <= f->highest) != low) continue;
+        const uint32_t *index = scene->buffers.indices + geometry->first_index;
+        for (uint32_t t = 0; t + 2 < geometry->index_count && --f->work_left > 0; t += 3) {
+            vec3 corner[3];
+            for (int k = 0; k < 3; k++) gn_pose_corner(pose, i, index[t + (uint32_t)k], corner[k]);
+            mark_triangle(f, corner, posed->mirrored,
+                          scene->materials[item->material].double_sided);
+        }
+        has_underside |= add_item(f);
+    }
+    return has_underside;
 }
 
 /* Whether most of the model stands on something that faces up and is drawn. */
 static bool has_floor(const struct gn_scene *scene, const struct gn_pose *pose) {
     const struct gn_box *box = &scene->box;
-    struct footprint f = {
-        .box = box, .work_left = WORK, .highest = glm_lerp(box->min[1], box->max[1], LOWEST)};
+    struct footprint f = {.box = box,
+                          .work_left = WORK,
+                          .highest = glm_lerp(box->min[1], box->max[1], LOWEST),
+                          .first = {CELLS, CELLS},
+                          .last = {-1, -1}};
     if (!(box->max[0] > box->min[0]) || !(box->max[2] > box->min[2])) return false;
-    for (uint32_t i = 0; i < scene->item_count; i++) {
-        const struct gn_pose_item *posed = &pose->items[i];
-        const struct gn_item *item = &scene->items[i];
-        const struct gn_geometry *geometry = &scene->geometries[item->geometry];
-        if (!posed->visible || !item->receives || posed->box_ws.min[1] > f.highest) continue;
-        const uint32_t *index = scene->buffers.indices + geometry->first_index;
-        for (uint32_t t = 0; t + 2 < geometry->index_count && --f.work_left > 0; t += 3) {
-            vec3 corner[3];
-            for (int k = 0; k < 3; k++) gn_pose_corner(pose, i, index[t + (uint32_t)k], corner[k]);
-            mark_triangle(&f, corner, posed->mirrored,
-                          scene->materials[item->material].double_sided);
+    if (mark_items(&f, scene, pose, true)) mark_items(&f, scene, pose, false);
+    int open = 0, covered = 0;
+    for (int z = 0; z < CELLS; z++)
+        for (int x = 0; x < CELLS; x++) {
+            const bool roofed = f.all.roofed[z][x];
+            const bool is_ground = f.all.ground[z][x] || (f.all.underside[z][x] && !roofed);
+            open += is_ground || !roofed;
+            covered += is_ground;
         }
-    }
-    int covered = 0;
-    for (int i = 0; i < CELLS * CELLS; i++) covered += f.covered[i / CELLS][i % CELLS];
-    return (float)covered >= LEAST_COVERED * CELLS * CELLS;
+    return (float)covered >= fmaxf(LEAST_COVERED * (float)open, LEAST_OF_ALL * CELLS * CELLS);
 }
 
 /* A square of side 2 in the plane y = 0 of its node; returns its geometry. */
@@ -94,6 +139,7 @@ static uint32_t add_square(struct gn_scene *scene) {
         .first_index = buffers->index_count,
         .index_count = 6,
         .box = {{-1, 0, -1}, {1, 0, 1}},
+        .layers = {0, 1, 0},
         .attributes = 1u << GN_ATTRIBUTE_POSITION | 1u << GN_ATTRIBUTE_NORMAL,
         .flat = true,
         .plane = {0, 1, 0, 0},
@@ -125,13 +171,13 @@ void gn_scene_add_floor(struct gn_gltf *g, struct gn_pose *pose) {
     gn_pose_choose(pose, GN_POSE_NONE);
     if (floor->kind == GN_FLOOR_AUTO && has_floor(scene, pose)) return;
     const struct gn_box *box = &scene->box;
-    const float size = fmaxf(glm_vec3_distance((float *)box->min, (float *)box->max), 1e-3f);
+    const float size = fmaxf(glm_vec3_distance((float *)box->min, (float *)box->max), 1e-9f);
     const float half_m = REACH * size / 2;
     vec3 middle;
     glm_vec3_center((float *)box->min, (float *)box->max, middle);
     middle[1] = floor->kind == GN_FLOOR_HEIGHT ? (float)(floor->height_m - scene->place.origin[1])
                                                : lowest_point(scene) - BELOW * size;
-    gn_pose_choose(pose, GN_POSE_DEFAULT); /* what is still at all times occludes */
+    gn_pose_choose(pose, GN_POSE_DEFAULT);
     const int32_t occlusion = gn_floor_occlusion(g, pose, middle, half_m * GN_FLOOR_OCCLUDED);
     if (g->failed) return;
 

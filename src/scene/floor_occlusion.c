@@ -1,5 +1,6 @@
-/* What the sky loses on the floor under a model: the ambient occlusion of its resting parts, as a
- * texture of the shadow catcher.
+/* What the sky loses on the floor under a model: the ambient occlusion of its parts, as a texture
+ * of the shadow catcher. Of what moves it is the mean over some poses; what does not stay where it
+ * is would leave stains, and has none.
  *
  * The model is taken as a field of columns, each solid from its lowest to its highest surface. From
  * a point of the floor, in each of some directions, the columns hide intervals of elevation; of
@@ -8,23 +9,30 @@
 #include "scene/private.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "scene/deform.h"
 #include "scene/pose.h"
 
 enum {
-    COLUMNS = 128, /* to each side */
-    TEXELS = 64,   /* of the texture */
-    AZIMUTHS = 12,
-    STEPS = 31,     /* to farther than the columns reach */
+    COLUMNS = 128,  /* to each side */
+    TEXELS = 64,    /* of the texture */
+    AZIMUTHS = 12,  /* of one texel; */
+    TURNS = 2,      /* its neighbours have others, in squares of so many to each side */
     SHARES = 64,    /* of sin(e)^2: bits of a word */
-    WORK = 1 << 24, /* triangles and columns that they are over; no more are looked at */
+    WORK = 1 << 24, /* triangles and columns that they are over; no more are looked at in a pose */
+    POSES = 4,      /* of a period, if something moves; */
+    POSED = 400000, /* or so few that these triangles are posed at most */
 };
-static const float STEP_GROWS = 1.2f; /* along a direction, from half a column on */
+/* What stays where it is: the footprint of its box over all poses is this much wider at most than
+ * in the widest of them. */
+#define STAYS 1.5f
 
 struct columns {
     float corner[2], side_m; /* x and z of the least corner; of the square that they fill */
     int64_t work_left;
+    int first[2], last[2];                               /* of columns that hold something */
     float low[COLUMNS][COLUMNS], high[COLUMNS][COLUMNS]; /* above the floor; low > high: empty */
 };
 
@@ -67,14 +75,60 @@ static void add_triangle(struct columns *c, vec3 corner[3]) {
                 /* its slope within a column */
                 y[0] = y[1] = glm_clamp(height, bottom, top);
             }
+            for (int k = 0; k < 2; k++) {
+                const int at_k = k ? z : x;
+                if (at_k < c->first[k]) c->first[k] = at_k;
+                if (at_k > c->last[k]) c->last[k] = at_k;
+            }
             c->low[z][x] = fminf(c->low[z][x], y[0]);
             c->high[z][x] = fmaxf(c->high[z][x], y[1]);
         }
 }
 
+static bool is_solid(const struct gn_scene *scene, const struct gn_item *item) {
+    return item->casts && !gn_material_is_clear(&scene->materials[item->material]);
+}
+
+static void step_to(struct gn_pose *pose, int at, int poses) {
+    gn_pose_step(pose, gn_scene_period_ns(pose) / poses * at);
+}
+
+/* How many poses are looked at. */
+static int count_poses(const struct gn_scene *scene, const struct gn_pose *pose) {
+    uint64_t triangles = 0;
+    int poses = POSES;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (pose->items[i].moves && is_solid(scene, &scene->items[i]))
+            triangles += scene->geometries[scene->items[i].geometry].index_count / 3;
+    while (poses > 1 && poses * triangles > POSED) poses /= 2;
+    return triangles > 0 && gn_scene_period_ns(pose) > 0 ? poses : 1;
+}
+
+/* Of each item whether it stays; boxes: room for one of each. */
+static void find_staying(const struct gn_scene *scene, struct gn_pose *pose, int poses,
+                         struct gn_box *boxes, float (*widest_m)[2], bool *stays) {
+    for (uint32_t i = 0; i < scene->item_count; i++) boxes[i] = GN_BOX_EMPTY;
+    for (int p = 0; p < poses; p++) {
+        step_to(pose, p, poses);
+        for (uint32_t i = 0; i < scene->item_count; i++) {
+            const struct gn_box *box = &pose->items[i].box_ws;
+            gn_box_join(&boxes[i], box);
+            for (int k = 0; k < 2; k++)
+                widest_m[i][k] = fmaxf(widest_m[i][k], box->max[2 * k] - box->min[2 * k]);
+        }
+    }
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        stays[i] = true;
+        for (int k = 0; k < 2; k++)
+            stays[i] &= boxes[i].max[2 * k] - boxes[i].min[2 * k] <= STAYS * widest_m[i][k];
+    }
+}
+
 static void fill_columns(struct columns *c, const struct gn_scene *scene,
-                         const struct gn_pose *pose, float floor_m) {
+                         const struct gn_pose *pose, const bool *stays, float floor_m) {
     c->work_left = WORK;
+    c->first[0] = c->first[1] = COLUMNS;
+    c->last[0] = c->last[1] = -1;
     for (int i = 0; i < COLUMNS * COLUMNS; i++) {
         c->low[i / COLUMNS][i % COLUMNS] = INFINITY;
         c->high[i / COLUMNS][i % COLUMNS] = -INFINITY;
@@ -82,8 +136,7 @@ static void fill_columns(struct columns *c, const struct gn_scene *scene,
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         const struct gn_geometry *geometry = &scene->geometries[item->geometry];
-        if (!pose->items[i].visible || !item->casts || pose->items[i].moves) continue;
-        if (gn_material_is_clear(&scene->materials[item->material])) continue;
+        if (!pose->items[i].visible || !stays[i] || !is_solid(scene, item)) continue;
         const uint32_t *index = scene->buffers.indices + geometry->first_index;
         for (uint32_t t = 0; t + 2 < geometry->index_count; t += 3) {
             if (--c->work_left < 0) return;
@@ -104,34 +157,77 @@ static uint64_t bits_between(float from, float to) {
     return (b - a >= SHARES ? ~UINT64_C(0) : (UINT64_C(1) << (b - a)) - 1) << a;
 }
 
-/* Share of a uniform sky that a point of the floor sees; x, z: in columns. */
-static float seen_sky(const struct columns *c, float x, float z) {
+/* Which shares of the elevations the columns hide that a ray of the floor passes, one after the
+ * other (Amanatides, Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987); x, z, and
+ * lengths in columns. */
+static uint64_t hidden_along(const struct columns *c, float x, float z, float dx, float dz) {
     const float column_m = c->side_m / COLUMNS;
+    const float each[2] = {1 / fmaxf(fabsf(dx), 1e-6f), 1 / fmaxf(fabsf(dz), 1e-6f)};
+    const int step[2] = {dx < 0 ? -1 : 1, dz < 0 ? -1 : 1};
+    const int end[2] = {dx < 0 ? c->first[0] - 1 : c->last[0] + 1,
+                        dz < 0 ? c->first[1] - 1 : c->last[1] + 1}; /* nothing lies behind */
+    int at[2] = {(int)x, (int)z};
+    float next[2] = {each[0] * (dx < 0 ? x - (float)at[0] : (float)at[0] + 1 - x),
+                     each[1] * (dz < 0 ? z - (float)at[1] : (float)at[1] + 1 - z)};
+    float r = 0, before[2] = {1, 0}; /* hidden by the column before; [0] > [1]: nothing */
+    uint64_t bits = 0;
+    while ((end[0] - at[0]) * step[0] > 0 && (end[1] - at[1]) * step[1] > 0) {
+        const float low = c->low[at[1]][at[0]], high = c->high[at[1]][at[0]];
+        const int k = next[1] < next[0];
+        float now[2] = {1, 0};
+        if (low <= high && next[k] > r) { /* not one that it only touches */
+            const float r_m = .5f * (r + next[k]) * column_m, r2 = r_m * r_m;
+            now[0] = low * low / (low * low + r2);
+            now[1] = high * high / (high * high + r2);
+            /* what lies between two solid columns is solid, too */
+            const bool joined = before[0] <= before[1];
+            bits |= bits_between(joined ? fminf(now[0], before[0]) : now[0],
+                                 joined ? fmaxf(now[1], before[1]) : now[1]);
+        }
+        before[0] = now[0];
+        before[1] = now[1];
+        r = next[k];
+        at[k] += step[k];
+        next[k] += each[k];
+    }
+    return bits;
+}
+
+/* Share of a uniform sky that a point of the floor sees; x, z: in columns; turn: of its azimuths,
+ * from 0 to 1. */
+static float seen_sky(const struct columns *c, float x, float z, float turn) {
     int hidden = 0;
     for (int a = 0; a < AZIMUTHS; a++) {
-        const float turn = (float)a * 2 * GLM_PIf / AZIMUTHS, dx = cosf(turn), dz = sinf(turn);
-        uint64_t bits = 0;
-        float before[2] = {1, 0}; /* hidden by the step before; [0] > [1]: nothing */
-        float r = .5f;
-        for (int step = 0; step < STEPS; step++, r *= STEP_GROWS) {
-            const int ix = (int)floorf(x + dx * r), iz = (int)floorf(z + dz * r);
-            if (ix < 0 || iz < 0 || ix >= COLUMNS || iz >= COLUMNS) break;
-            const float low = c->low[iz][ix], high = c->high[iz][ix];
-            float now[2] = {1, 0};
-            if (low <= high) {
-                const float r2 = r * r * column_m * column_m;
-                now[0] = low * low / (low * low + r2);
-                now[1] = high * high / (high * high + r2);
-                /* what lies between two solid columns is solid, too */
-                const bool joined = before[0] <= before[1];
-                bits |= bits_between(joined ? fminf(now[0], before[0]) : now[0],
-                                     joined ? fmaxf(now[1], before[1]) : now[1]);
-            }
-            memcpy(before, now, sizeof now);
-        }
-        hidden += __builtin_popcountll(bits);
+        const float azimuth = ((float)a + turn) * 2 * GLM_PIf / AZIMUTHS;
+        hidden += __builtin_popcountll(hidden_along(c, x, z, cosf(azimuth), sinf(azimuth)));
     }
     return 1 - (float)hidden / (SHARES * AZIMUTHS);
+}
+
+/* Whether something stands on the floor at the middle of a texel, which nobody sees there. */
+static bool is_under(const struct columns *c, int x, int z) {
+    const int step = COLUMNS / TEXELS, at[2] = {x * step + step / 2, z * step + step / 2};
+    bool under = true;
+    for (int i = 0; i < 4; i++)
+        under &= c->low[at[1] - i / 2][at[0] - i % 2] < .25f * c->side_m / COLUMNS;
+    return under;
+}
+
+/* Each of the turns around a texel with the same weight: a tent, of halves at its rim. Contacts
+ * stay sharp: what lies under the model counts only there. */
+static float mean_of_turns(const struct columns *c, float (*seen)[TEXELS], int x, int z) {
+    const int reach = TURNS / 2;
+    const bool under = is_under(c, x, z);
+    float sum = 0, all = 0;
+    for (int v = -reach; v <= reach; v++)
+        for (int u = -reach; u <= reach; u++) {
+            if (x + u < 0 || z + v < 0 || x + u >= TEXELS || z + v >= TEXELS) continue;
+            if (is_under(c, x + u, z + v) != under) continue;
+            const float weight = (abs(u) == reach ? .5f : 1) * (abs(v) == reach ? .5f : 1);
+            sum += weight * seen[z + v][x + u];
+            all += weight;
+        }
+    return sum / all;
 }
 
 /* Appends a texture of grey texels; returns its number, or -1 when memory lacks. */
@@ -156,27 +252,57 @@ static int32_t add_texture(struct gn_gltf *g, uint8_t *rgba) {
     return (int32_t)pictures->texture_count++;
 }
 
-int32_t gn_floor_occlusion(struct gn_gltf *g, const struct gn_pose *pose, const float middle[3],
-                           float side_m) {
-    gn_arena_reset(&g->memory.step);
-    struct columns *c = gn_gltf_alloc(g, &g->memory.step, 1, sizeof *c);
-    uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, TEXELS * TEXELS, 4);
-    if (!c || !rgba) return -1;
-    c->side_m = side_m;
-    c->corner[0] = middle[0] - side_m / 2;
-    c->corner[1] = middle[2] - side_m / 2;
-    fill_columns(c, g->scene, pose, middle[1]);
+/* Adds to each texel the share of the sky that it sees; seen: room for all. */
+static void add_sky(const struct columns *c, float (*seen)[TEXELS], float (*sum)[TEXELS]) {
     const float step = (float)COLUMNS / TEXELS;
     for (int z = 0; z < TEXELS; z++)
         for (int x = 0; x < TEXELS; x++) {
-            /* it fades out towards the rim, whose texels continue for ever */
+            const int turn = x % TURNS + TURNS * ((x + z) % TURNS);
+            seen[z][x] = seen_sky(c, ((float)x + .5f) * step, ((float)z + .5f) * step,
+                                  (float)turn / (TURNS * TURNS));
+        }
+    for (int z = 0; z < TEXELS; z++)
+        for (int x = 0; x < TEXELS; x++) sum[z][x] += mean_of_turns(c, seen, x, z);
+}
+
+/* It fades out towards the rim, whose texels continue for ever. */
+static void write_texels(float (*sum)[TEXELS], int poses, uint8_t *rgba) {
+    for (int z = 0; z < TEXELS; z++)
+        for (int x = 0; x < TEXELS; x++) {
             const float to_rim = fminf(fminf((float)x, (float)z),
                                        fminf((float)(TEXELS - 1 - x), (float)(TEXELS - 1 - z)));
             const float share = glm_smoothstep(0, TEXELS / 5.0f, to_rim);
-            float seen = seen_sky(c, ((float)x + .5f) * step, ((float)z + .5f) * step);
-            seen = 1 - share * (1 - seen);
-            memset(rgba + 4 * (z * TEXELS + x), (int)(seen * 255 + .5f), 3);
+            const float sky = 1 - share * (1 - sum[z][x] / (float)poses);
+            memset(rgba + 4 * (z * TEXELS + x), (int)(sky * 255 + .5f), 3);
             rgba[4 * (z * TEXELS + x) + 3] = 255;
         }
+}
+
+int32_t gn_floor_occlusion(struct gn_gltf *g, struct gn_pose *pose, const float middle[3],
+                           float side_m) {
+    struct gn_arena *step = &g->memory.step;
+    const struct gn_scene *scene = g->scene;
+    const uint32_t items = scene->item_count;
+    gn_arena_reset(step);
+    struct columns *c = gn_gltf_alloc(g, step, 1, sizeof *c);
+    uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, TEXELS * TEXELS, 4);
+    float(*seen)[TEXELS] = gn_gltf_alloc(g, step, TEXELS, sizeof *seen),
+    (*sum)[TEXELS] = gn_gltf_alloc(g, step, TEXELS, sizeof *sum);
+    struct gn_box *boxes = gn_gltf_alloc(g, step, items, sizeof *boxes);
+    float(*widest_m)[2] = gn_gltf_alloc(g, step, items, sizeof *widest_m);
+    bool *stays = gn_gltf_alloc(g, step, items, sizeof *stays);
+    if (g->failed) return -1;
+    c->side_m = side_m;
+    c->corner[0] = middle[0] - side_m / 2;
+    c->corner[1] = middle[2] - side_m / 2;
+    const int poses = count_poses(scene, pose);
+    find_staying(scene, pose, poses, boxes, widest_m, stays);
+    for (int p = 0; p < poses; p++) {
+        step_to(pose, p, poses);
+        fill_columns(c, scene, pose, stays, middle[1]);
+        add_sky(c, seen, sum);
+    }
+    gn_pose_step(pose, 0);
+    write_texels(sum, poses, rgba);
     return add_texture(g, rgba);
 }

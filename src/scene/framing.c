@@ -71,7 +71,7 @@ void gn_framing_fit(const struct gn_framing_fit *fit, vec3 axes[3], struct gn_ca
         distance = fmaxf(distance, fmaxf(more - aside[k], less + aside[k]) / s);
         size = fmaxf(size, more + less);
     }
-    size = fmaxf(size, 1e-3f);
+    size = fmaxf(size, 1e-9f);
     distance = fmaxf(distance, nearest + .05f * size);
     glm_vec3_copy((float *)fit->centre_ws, eye_ws);
     glm_vec3_muladds(axes[0], aside[0], eye_ws);
@@ -103,7 +103,7 @@ static void place_camera(const struct gn_framing_opts *opts, struct gn_framing_f
     vec3 to_centre, target;
     glm_vec3_sub(fit->centre_ws, framing->eye_ws, to_centre);
     float distance = -glm_vec3_dot(to_centre, axes[2]);
-    const float size = fmaxf(find_reach(fit, axes[2]), 1e-3f);
+    const float size = fmaxf(find_reach(fit, axes[2]), 1e-9f);
     if (distance < .05f * size) distance = size; /* it looks elsewhere */
     glm_vec3_copy(framing->eye_ws, target);
     glm_vec3_muladds(axes[2], -distance, target);

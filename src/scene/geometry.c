@@ -411,7 +411,7 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
          * by the limit on vertices. */
         const bool is_own = geometry->vertex_count <= 2 * (uint64_t)geometry->index_count;
         if (is_own && g->closed_corners <= CLOSED_CORNERS * g->limits.vertices)
-            geometry->closed = gn_geometry_is_closed(g, geometry);
+            gn_geometry_test_closed(g, geometry);
         g->closed_corners += geometry->index_count;
     }
     /* makes vertices that no triangle uses finite, too */

@@ -126,7 +126,7 @@ void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *g
 
 /* The normal of the largest triangle, oriented to the side that most of the area faces. */
 static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry *geometry,
-                         double out[3], double *area) {
+                         double out[3], double *area, double along[3]) {
     const uint32_t *index = scene->buffers.indices + geometry->first_index;
     double sum[3] = {0}, best = 0;
     *area = 0;
@@ -137,7 +137,10 @@ static bool guess_normal(const struct gn_scene *scene, const struct gn_geometry 
                  scene->buffers.positions + 3 * (size_t)index[i + 2], n);
         double length = length_of(n);
         *area += length / 2;
-        for (int k = 0; k < 3; k++) sum[k] += n[k];
+        for (int k = 0; k < 3; k++) {
+            sum[k] += n[k];
+            along[k] += fabs(n[k]) / 2;
+        }
         if (length <= best) continue;
         best = length;
         memcpy(out, n, sizeof n);
@@ -162,12 +165,17 @@ void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geome
     }
     geometry->box = box;
 
-    double n[3] = {0}, size[3], d = 0;
-    if (!guess_normal(scene, geometry, n, area)) return;
+    const uint32_t triangles = geometry->index_count / 3;
+    double n[3] = {0}, along[3] = {0}, size[3], d = 0;
+    if (!guess_normal(scene, geometry, n, area, along)) return;
     const float *on = positions + 3 * (size_t)index[0];
     for (int k = 0; k < 3; k++) {
         size[k] = (double)box.max[k] - (double)box.min[k];
         d -= n[k] * (double)on[k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const double face = size[(k + 1) % 3] * size[(k + 2) % 3];
+        if (face > 0) geometry->layers[k] = (float)fmin(along[k] / face, triangles);
     }
     const double tolerance = 1e-5 * length_of(size);
     for (size_t i = 0; i < geometry->index_count; i++) {

@@ -26,6 +26,7 @@ static const struct row {
     {"maps_mb", offsetof(struct gn_scene_limits, maps_mb), 384, 1 << 20, 8},
     {"triangles_per_frame", offsetof(struct gn_scene_limits, triangles_per_frame), 100000000,
      UINT64_C(1) << 40, 0},
+    {"overdraw", offsetof(struct gn_scene_limits, overdraw), 100, 1000000, 0},
     {"decoded_mb", offsetof(struct gn_scene_limits, decoded_mb), 1024, 1 << 20, 2},
     {"ahead_percent", offsetof(struct gn_scene_limits, ahead_percent), 10, 100000, 0},
 };

@@ -72,6 +72,7 @@ static const struct {
     {gn_gltf_cameras, 930},
     {gn_gltf_animations, 930},
     {gn_scene_complete, 950},
+    {gn_scene_lay_occlusion, 975},
     {gn_scene_batch, 980},
     {gn_scene_count_gpu, 990},
 };

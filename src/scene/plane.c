@@ -17,14 +17,21 @@ static const double FURTHER_SHARE = .2;
 /* Bounds on the search: flat items by their areas, and lights. */
 enum { CANDIDATES = 8, LIGHTS = 16 };
 
-/* Whether two flat items lie in one plane. */
+static float size_of(const struct gn_box *box) {
+    return glm_vec3_distance((float *)box->min, (float *)box->max);
+}
+
+/* Whether two flat items lie in one plane: to a share of the smaller one, as a terrace of a city
+ * is another plane than its ground. */
 static bool lie_together(const struct gn_pose *pose, uint32_t a, uint32_t b) {
-    const float size = glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max);
+    const struct gn_box *p_box = &pose->items[a].box_ws, *q_box = &pose->items[b].box_ws;
+    const float size = fminf(size_of(p_box), size_of(q_box));
     vec4 p, q;
     gn_pose_plane(pose, a, p);
     gn_pose_plane(pose, b, q);
     if (glm_vec3_dot(p, q) < 0) glm_vec4_negate(q);
-    return glm_vec3_distance(p, q) < 1e-4f && fabsf(p[3] - q[3]) < 1e-4f * size;
+    return glm_vec3_distance(p, q) < 1e-4f &&
+           fabsf(p[3] - q[3]) < 1e-4f * size + 2e-6f * fabsf(p[3]);
 }
 
 /* Marked items make up planes, in the order of their items, as many as there may be. One that is
@@ -114,7 +121,7 @@ static float height_of(const struct gn_box *box, vec4 plane, float most) {
 static bool reaches(const struct gn_box *caster, const struct gn_box *receiver, vec4 plane,
                     vec3 light, float height_m, bool has_place) {
     vec3 low = {INFINITY, INFINITY, INFINITY}, high = {-INFINITY, -INFINITY, -INFINITY};
-    const float hair_m = 1e-3f * glm_vec3_distance((float *)receiver->min, (float *)receiver->max);
+    const float hair_m = fminf(1e-3f * size_of(receiver), 1e-2f * size_of(caster));
     if (height_of(caster, plane, 1) < hair_m) return false;
     if (has_place && height_of(caster, plane, 1) >= height_m)
         return height_of(caster, plane, -1) < height_m;
@@ -149,7 +156,8 @@ static bool reaches_from(const struct gn_gltf *g, const struct gn_pose *pose, ui
         glm_vec4_negate(plane);
         height_m = -height_m;
     }
-    if (height_m <= 1e-2f || (has_place && l->range_m > 0 && height_m > l->range_m)) return false;
+    const float least = has_place ? 1e-5f * size_of(&pose->items[item].box_ws) : 1e-2f;
+    if (height_m <= least || (has_place && l->range_m > 0 && height_m > l->range_m)) return false;
     return reaches(caster, &pose->items[item].box_ws, plane, place, height_m, has_place);
 }
 

@@ -259,8 +259,10 @@ bool gn_gltf_lights(struct gn_gltf *g);         /* gltf/light.c */
 bool gn_gltf_cameras(struct gn_gltf *g);        /* gltf/camera.c */
 bool gn_gltf_animations(struct gn_gltf *g);     /* gltf/anim.c */
 bool gn_scene_complete(struct gn_gltf *g);      /* complete.c */
-bool gn_scene_batch(struct gn_gltf *g);         /* batch.c */
-bool gn_scene_count_gpu(struct gn_gltf *g);     /* gpu.c */
+bool gn_scene_lay_occlusion(
+    struct gn_gltf *g);                     /* occlusion.c: items that are still, before batches */
+bool gn_scene_batch(struct gn_gltf *g);     /* batch.c */
+bool gn_scene_count_gpu(struct gn_gltf *g); /* gpu.c */
 
 /* ---- helpers ---- */
 
@@ -326,8 +328,8 @@ void gn_geometry_add_spread(struct gn_scene *scene, uint32_t vertex, const doubl
                             const double normal[3]);
 /* spread.c: of what is deformed, by poses of all clips. After gn_scene_measure(). */
 bool gn_scene_add_posed_spreads(struct gn_gltf *g);
-/* closed.c. False also where memory_mb leaves too little memory for the test. */
-bool gn_geometry_is_closed(const struct gn_gltf *g, const struct gn_geometry *geometry);
+/* closed.c. Sets watertight and closed; neither where memory_mb leaves too little memory. */
+void gn_geometry_test_closed(const struct gn_gltf *g, struct gn_geometry *geometry);
 /* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
 
@@ -448,13 +450,17 @@ void gn_scene_find_planes(struct gn_gltf *g, const struct gn_pose *pose);
 
 /* extent.c: scene->extents, by poses of all clips. */
 bool gn_scene_measure(struct gn_gltf *g, struct gn_pose *pose);
+/* How long it takes until all that a pose plays has been seen together, 0 if nothing moves: clips
+ * of different length meet differently each time. */
+int64_t gn_scene_period_ns(const struct gn_pose *pose);
 /* floor.c: adds the shadow catcher that limits.floor asks for. After gn_scene_measure(). */
 void gn_scene_add_floor(struct gn_gltf *g, struct gn_pose *pose);
 
 /* floor_occlusion.c: a new texture: in R the share of a uniform sky that a square of the floor sees
- * past the items that do not move, X to the right, Z down; 1 along its rim. middle: of the square.
- * -1: out of memory, and the load fails. */
-int32_t gn_floor_occlusion(struct gn_gltf *g, const struct gn_pose *pose, const float middle[3],
+ * past the items that stay where they are, on average over the clips of the pose, which is stepped;
+ * X to the right, Z down; 1 along its rim. middle: of the square. -1: out of memory, and the load
+ * fails. */
+int32_t gn_floor_occlusion(struct gn_gltf *g, struct gn_pose *pose, const float middle[3],
                            float side_m);
 
 /* gltf/material.c: glTF's default material, and the defaults of every other. */

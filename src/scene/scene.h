@@ -140,8 +140,11 @@ struct gn_geometry {
         index_count;     /* a multiple of 3; indices are absolute, into buffers.positions */
     struct gn_box box;   /* mesh space */
     uint32_t attributes; /* bit per gn_attribute that the file has, and TANGENT where it was made */
-    bool flat;           /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
-    bool closed; /* the boundary of solid bodies, front faces outward; false when in doubt */
+    float layers[3]; /* how many of its triangles lie on one another, on average, along each axis
+                        of mesh space: their area as seen along it, over that of the box */
+    bool flat;       /* all vertices lie in one plane (within 1e-5 of the box's diagonal) */
+    bool watertight; /* a line crosses as many front as back faces; false when in doubt */
+    bool closed;     /* watertight, the boundary of solid bodies, front faces outward */
     vec4 plane; /* mesh space, if flat: n.p + d = 0, |n| = 1, on the side its front faces look to */
     const double *origin; /* mesh space: taken off its positions, as they lay far off; NULL: 0 */
     struct gn_joint_box *joint_boxes; /* by ascending joint, if it has joints */
@@ -169,6 +172,7 @@ struct gn_item {
     bool casts_alpha;     /* gnomon_cast_alpha: blended, it casts a shadow by its alpha, dithered */
     uint64_t hidden_in;   /* bit 0: without a variant; bit i + 1: in variant i */
     uint8_t plane;        /* in which it receives planar shadows, from 1; 0: in none */
+    bool still; /* no clip of the file moves, deforms or hides it, and it is no shadow catcher */
     enum gn_cast_faces cast_faces;
 };
 
@@ -310,6 +314,15 @@ struct gn_scene_variants {
     const char **names;
     uint32_t count;
 };
+/* Where ambient occlusion of what is still has room: a grid of cubes whose middles enclose it, at
+ * the pose without clips. Of a uniform sky a point of its surface, of normal n, sees the share
+ * w + (x, y, z).n, between 0 and 1; x, y, z and w are of the cubes' middles, linear between them.
+ * The texels of the grid are made by truth/occlusion.h. */
+struct gn_scene_occlusion {
+    uint32_t size[3]; /* cubes, 2 at least; 0: there is nothing still */
+    float cell_m;     /* side of a cube */
+    float origin[3];  /* middle of the first, world space; x changes first from cube to cube */
+};
 struct gn_scene_added {        /* by the loader, as the last one, because the file has none */
     bool light, camera, floor; /* the floor: an item whose material is a shadow catcher */
 };
@@ -345,6 +358,7 @@ struct gn_scene {
     struct gn_scene_animation animation;
     struct gn_scene_deformation deformation;
     struct gn_scene_environment environment;
+    struct gn_scene_occlusion occlusion;
     struct gn_scene_added added;
     struct gn_scene_variants variants;
     struct gn_extent *extents; /* over the time of all clips that a pose plays: at its `clips` minus
@@ -390,15 +404,17 @@ struct gn_scene_limits {
     uint64_t maps_mb;             /* 384: what shadows take on the GPU in one frame */
     uint64_t triangles_per_frame; /* 100000000: of all nodes and their instances, in the picture and
                                      in the maps of lights; an item counts as 100 there */
-    uint64_t decoded_mb;          /* 1024: decoded pictures, with what decoding one takes. Over it,
-                                     or gpu_mb or memory_mb, the largest pictures are halved until
-                                     all fit, with a warning; what still does not is left out */
-    uint64_t ahead_percent;       /* 10: programs of modes that were not shown yet, of the memory
-                                     that is in use without them */
-    const atomic_bool *cancel;    /* another thread sets it to end the load, which fails; or NULL */
-    atomic_uint *progress;        /* gets how much of the load is done, per mille; or NULL */
-    struct gn_scene_floor floor;  /* no limit: what is added to the file */
-    uint32_t texture_px;          /* pictures of longer sides become smaller; 0: none does */
+    uint64_t overdraw;      /* 100: how often a frame draws a pixel, on average; opaque ones count a
+                               quarter */
+    uint64_t decoded_mb;    /* 1024: decoded pictures, with what decoding one takes. Over it,
+                               or gpu_mb or memory_mb, the largest pictures are halved until
+                               all fit, with a warning; what still does not is left out */
+    uint64_t ahead_percent; /* 10: programs of modes that were not shown yet, of the memory
+                               that is in use without them */
+    const atomic_bool *cancel;   /* another thread sets it to end the load, which fails; or NULL */
+    atomic_uint *progress;       /* gets how much of the load is done, per mille; or NULL */
+    struct gn_scene_floor floor; /* no limit: what is added to the file */
+    uint32_t texture_px;         /* pictures of longer sides become smaller; 0: none does */
 };
 /* Sets a limit by name; false and a usage error that lists the names if it is unknown. */
 bool gn_scene_limits_set(struct gn_scene_limits *limits, const char *name, uint64_t value,
@@ -431,6 +447,10 @@ struct gn_scene *gn_scene_load_converted(const char *path, const void *data, siz
 /* Whether a file that cannot be loaded lists that extension of glTF. Reads the file. */
 bool gn_scene_uses(const char *path, const struct gn_scene_limits *limits, const char *extension);
 void gn_scene_destroy(struct gn_scene *scene);
+
+/* Whether the light from all around that an item gets is looked up in the scene's volume of
+ * occlusion. Materials with all textures that one may have leave no sampler for it. */
+bool gn_item_is_occluded(const struct gn_scene *scene, const struct gn_item *item);
 
 /* What the GPU will have of a picture, with mipmaps, and of all indices, which have 16 bits where
  * that is enough. */

@@ -31,6 +31,12 @@ struct gn_shadow_opts {
     bool all_receive;            /* ignore gnomon_receive: for pictures of visibility */
     uint32_t plane;              /* on_plane: which of the scene, from 1; 0: the first */
     uint32_t points;             /* with MEAN: of the lamp (lamp.h) */
+    bool whole;                  /* on_plane: the window is all of the shadow, seen or not */
+    struct gn_shadow_square {
+        float middle[2], half_m; /* world x and z; 0: there is none */
+        float held_m;            /* half of its middle part that the window holds in any case */
+    } square;                    /* technique FLOOR: of the floor, whose rim has no shadow */
+    bool but_floor;              /* the unseen floor does not receive from this map */
     struct gn_light_opts light;  /* what holds for the light; what is not given is the scene's, or
                                     the technique's. The fields above are already chosen by it */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
@@ -160,14 +166,25 @@ struct gn_shadow_lamp {
     float low_m, highest_m; /* over the plane: where casters begin, and the top of the highest */
 };
 
+/* Technique FLOOR: what the mask becomes (filter/floor.frag), and where that is drawn. */
+struct gn_shadow_floor {
+    float shown[2][2]; /* its window without the rest of the map: least and greatest uv */
+    /* the frame's choice: shares of the light there that occlusion and shadows can take (0 to 1);
+     * weight of what is drawn now over what is there (0 to 1), and for how many frames more */
+    float ambient, key, weight;
+    uint32_t left;
+};
+
 /* All there is to know of a light's map: see the figure in README.md. */
 struct gn_shadow_view {
     uint32_t light;
     enum gn_technique technique;
     enum gn_encoding encoding;
-    enum gn_moments moments; /* what shaders read in the map's place; NONE: the map */
-    uint32_t plane;          /* as in gn_shadow_opts */
-    bool all_receive;        /* as in gn_shadow_opts */
+    enum gn_moments moments;        /* what shaders read in the map's place; NONE: the map */
+    uint32_t plane;                 /* as in gn_shadow_opts */
+    bool all_receive;               /* as in gn_shadow_opts */
+    bool whole, but_floor;          /* likewise */
+    struct gn_shadow_square square; /* likewise */
     bool faces_given;
     enum gn_cast_faces faces; /* given: of all casters, in place of their own */
     bool perspective;         /* spot, point */
@@ -180,6 +197,7 @@ struct gn_shadow_view {
     struct gn_shadow_lookup lookup;
     struct gn_shadow_penumbra penumbra;
     struct gn_shadow_lamp lamp;
+    struct gn_shadow_floor floor;
     struct gn_shadow_cascade cascades[GN_CASCADES_MAX]; /* map.cascade_count */
 };
 

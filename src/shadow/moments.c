@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
+const struct gn_moments_row gn_moments[GN_MOMENTS_ALL] = {
     [GN_MOMENTS_NONE] = {.name = "none"},
     [GN_MOMENTS_RG32UI] = {"rg32ui", "lib/moments_thirds.glsl", "usampler2D", 8, false, false},
     [GN_MOMENTS_RGBA16UI] = {"rgba16ui", "lib/moments_16ui.glsl", "usampler2D", 8, false, false},
@@ -16,9 +16,10 @@ const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT] = {
                                   false, false},
     [GN_MOMENTS_TABLE_RGBA32UI] = {"rgba32ui", "lib/moments_table.glsl", "usampler2D", 16, false,
                                    false},
-    [GN_MOMENTS_CONE_RG16F] = {"rg16f", "lib/cone_16f.glsl", "sampler2D", 4, true, false},
+    [GN_MOMENTS_CONE_RG16F] = {"rg16f", "lib/cone_16f.glsl", "sampler2D", 4, true, true},
     [GN_MOMENTS_CONE_BITS] = {"rg16f-bits", "lib/cone_bits.glsl", "usampler2D", 4, false, false},
     [GN_MOMENTS_CONE_BYTES] = {"rg16f-bytes", "lib/cone_bytes.glsl", "sampler2D", 4, false, false},
+    [GN_MOMENTS_FLOOR] = {"r8", "lib/floor_8.glsl", "sampler2D", 1, true, true},
 };
 
 const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
@@ -32,6 +33,7 @@ const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
     [GN_STEP_CONE_SEEDS] = {"cones", "filter/cone_seeds.frag", true},
     [GN_STEP_CONE_EDGES] = {"edges", "filter/cone_edges.frag", false},
     [GN_STEP_CONE_FLOOD] = {"flood", "filter/cone_flood.frag", false},
+    [GN_STEP_FLOOR] = {"alpha", "filter/floor.frag", true},
 };
 
 const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
@@ -60,6 +62,8 @@ const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
                                    {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 4},
                                    {GN_STEP_CONE_FLOOD, {0, GN_FROM_NOTHING}, 1, 2},
                                    {GN_STEP_CONE_FLOOD, {1, GN_FROM_NOTHING}, 0, 1}}},
+    [GN_FILTER_FLOOR] = {.count = 1,
+                         .stages = {{GN_STEP_FLOOR, {GN_FROM_MAP, GN_FROM_NOTHING}, 0, 0}}},
 };
 
 /* Box of a texel s: s^2 / 12; linear weights: s^2 / 6; the blur's: (2 blur)^2 / 12. */

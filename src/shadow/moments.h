@@ -29,6 +29,8 @@ enum gn_moments {
     GN_MOMENTS_CONE_BITS,      /* bits of two half floats in an integer */
     GN_MOMENTS_CONE_BYTES,     /* in four bytes: core, needs no proof */
     GN_MOMENTS_COUNT,
+    GN_MOMENTS_FLOOR = GN_MOMENTS_COUNT, /* alpha of an unseen floor; of no --map-format */
+    GN_MOMENTS_ALL,
 };
 struct gn_moments_row {
     const char *name;    /* as in --map-format */
@@ -38,7 +40,7 @@ struct gn_moments_row {
     bool linear;  /* a sampler weighs texels; else a shader does */
     bool mipmaps; /* they may be averaged: a map of one tile has mipmaps */
 };
-extern const struct gn_moments_row gn_moments[GN_MOMENTS_COUNT];
+extern const struct gn_moments_row gn_moments[GN_MOMENTS_ALL];
 enum { GN_STORES_MAX = 4 }; /* of a technique */
 
 /* A program that fills all of a target from textures. */
@@ -53,6 +55,7 @@ enum gn_filter_step {
     GN_STEP_CONE_SEEDS, /* of codes */
     GN_STEP_CONE_EDGES,
     GN_STEP_CONE_FLOOD,
+    GN_STEP_FLOOR, /* of codes, and a texture */
     GN_STEP_COUNT,
 };
 struct gn_filter_step_row {
@@ -70,6 +73,7 @@ enum gn_filter {
     GN_FILTER_BLUR,  /* a box, as wide as gn_shadow_view.penumbra.blur_px */
     GN_FILTER_TABLE, /* sums over all texels to the lower left, tile by tile */
     GN_FILTER_CONE,  /* the first cone behind a blocker at each place, tile by tile */
+    GN_FILTER_FLOOR, /* what an unseen floor takes from the picture behind it */
     GN_FILTER_COUNT,
 };
 enum { GN_FILTER_STAGES_MAX = 10, GN_FILTER_TEXTURES_MAX = 4, GN_FILTER_FROM_MAX = 2 };

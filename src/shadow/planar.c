@@ -14,7 +14,7 @@
 #include "shadow/private.h"
 #include "shadow/region.h"
 
-#define HAIR 3e-5f /* of the scene's size: casters begin at this height over the plane */
+#define HAIR 3e-5f /* of the highest caster: they begin at this height over the plane */
 #define LIGHT_SHARE                                                                                \
     (1.0f / 128.0f) /* of the light's height: casters end this far below the light */
 #define CONE_MAX_RAD 1.48f
@@ -126,7 +126,7 @@ static bool set_plane(struct planar *f) {
     float height = glm_vec4_dot(f->plane, light);
     if (height < 0.0f) glm_vec4_negate(f->plane);
     height = fabsf(height);
-    if (height < 1e-3f * (view->perspective ? f->scene_size_m : 1.0f)) return false;
+    if (height < (view->perspective ? 4e-6f * gn_scene_reach_m(f->pose) : 1e-3f)) return false;
 
     /* axes in the plane, right-handed with its normal: seen from the light, front faces keep their
      * winding */
@@ -242,7 +242,7 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
     /* it lies within the eye's planes, and within a pyramid round a spot light's cone (left, right,
      * bottom, top; near and far are not used) */
     vec4 planes[12];
-    int count = 6;
+    int count = f->view->whole ? 0 : 6;
     memcpy(planes, f->eye->planes, sizeof f->eye->planes);
     if (gn_light_types[light->type].has_cone) {
         mat4 look, lens;
@@ -277,6 +277,15 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
         in_range.max[k] = foot[k] + radius;
     }
     return intersect(&r, &in_range);
+}
+
+static void add_held(const struct planar *f, struct gn_shadow_region *window) {
+    const struct gn_shadow_square *s = &f->view->square;
+    for (int i = 0; i < 4; i++) {
+        const float x = s->middle[0] + (i & 1 ? s->held_m : -s->held_m),
+                    z = s->middle[1] + (i & 2 ? s->held_m : -s->held_m);
+        add_point(window, f->view->raster.tiles[0].light_from_world, (vec3){x, 0, z});
+    }
 }
 
 /* ---- the view ---- */
@@ -372,7 +381,7 @@ bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points) {
     for (uint32_t i = 0; i < pose->scene->item_count; i++)
         if (is_caster(&f, i))
             f.highest_m = fmaxf(f.highest_m, gn_box_most(f.plane, &pose->items[i].box_ws));
-    f.low_m = HAIR * f.scene_size_m + 1e-6f * gn_scene_reach_m(pose);
+    f.low_m = HAIR * f.highest_m + 1e-6f * gn_scene_reach_m(pose);
     set_heights(view, f.low_m, f.highest_m, &f.aim);
     if (f.aim.high_m <= f.low_m) return false;
     const float radius = fitter->light_radius;
@@ -390,6 +399,7 @@ bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points) {
         memory->casts[i] = 1;
         unite(&window, &shadow);
     }
+    if (view->square.held_m > 0.0f) add_held(&f, &window);
     window = intersect(&window, &receivers);
     if (region_is_empty(&window)) return false;
     if (view->encoding == GN_ENCODING_STENCIL) return set_stencil(&f, &window);
@@ -400,6 +410,11 @@ bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points) {
     const float corner[2] = {(float)low[0], (float)low[1]};
     clip_from(view, &f.aim, corner, view->raster.tiles[0].clip_from_world);
     set_lookup(view, corner);
+    const float side = view->lookup.texel * (float)view->map.tile_px;
+    for (int k = 0; k < 2; k++) {
+        view->floor.shown[0][k] = (window.min[k] - corner[k] - 2 * view->lookup.texel) / side;
+        view->floor.shown[1][k] = (window.max[k] - corner[k] + 2 * view->lookup.texel) / side;
+    }
     if (view->encoding == GN_ENCODING_MEAN) {
         const bool is_sharp = 2.0f * penumbra_of(&f, radius) < LEAST_TEXELS * view->lookup.texel;
         memcpy(view->lamp.corner, corner, sizeof corner);

@@ -32,10 +32,10 @@ void gn_taps_build(enum gn_taps kind, int count, float (*out)[2]) {
     }
 }
 
-/* Turned by noise_quarter(), the share of the points on one side of a straight edge is as near as
- * can be to the disk's: RMSE over edges .050, .034, .026; with radii of equal area .053, .037,
- * .028. By a random search among points that share products (shaders_es/shadow/cone.glsl): the
- * first and the last of three or four lie on the x axis, the second of two or three on the
+/* Turned by up to a quarter of a circle, the share of the points on one side of a straight edge is
+ * as near as can be to the disk's: RMSE over edges .050, .034, .026; with radii of equal area .053,
+ * .037, .028. By a random search among points that share products (shaders_es/shadow/cone.glsl):
+ * the first and the last of three or four lie on the x axis, the second of two or three on the
  * diagonal, those of four between them mirror each other. */
 static const struct {
     double radius, angle_deg;

@@ -11,6 +11,13 @@ const struct gn_technique_row gn_techniques[GN_TECHNIQUE_ALL] = {
                             .on_screen = true,
                             .what = "rays to points of the light, on the CPU",
                             .source = "Cook, Porter, Carpenter 1984"},
+    [GN_TECHNIQUE_FLOOR] = {.name = "floor",
+                            .on_plane = true,
+                            .filter = GN_FILTER_FLOOR,
+                            .stores = {GN_MOMENTS_FLOOR},
+                            .radius_texels = 2,
+                            .what = "planar from points of the lamp, with occlusion, as alpha",
+                            .source = "Blinn 1988"},
 };
 #undef ROW
 

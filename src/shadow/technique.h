@@ -17,6 +17,7 @@ enum gn_technique {
 #include "shadow/technique_rows.h"
     GN_TECHNIQUE_COUNT,
     GN_TECHNIQUE_TRUTH = GN_TECHNIQUE_COUNT, /* of stills alone: no mode, and not measured */
+    GN_TECHNIQUE_FLOOR, /* the frame's own choice, for an unseen floor: it has no name to choose */
     GN_TECHNIQUE_ALL,
 };
 #undef ROW

@@ -15,6 +15,8 @@ bool gn_shadow_item_casts(const struct gn_scene *scene, uint32_t item) {
 
 bool gn_shadow_item_receives(const struct gn_pose *pose, uint32_t item,
                              const struct gn_shadow_view *view) {
+    if (view->but_floor && pose->scene->materials[pose->scene->items[item].material].shadow_catcher)
+        return false;
     return pose->items[item].visible && (pose->scene->items[item].receives || view->all_receive);
 }
 

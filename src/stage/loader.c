@@ -7,6 +7,7 @@
 #include "core/arena.h"
 #include "core/thread.h"
 #include "core/worker.h"
+#include "stage/occlusion.h"
 #include "stage/stage.h"
 
 struct gn_loader {
@@ -27,6 +28,7 @@ struct gn_loader {
 
 static void destroy_loaded(struct gn_loaded *loaded) {
     if (!loaded) return;
+    gn_occluder_destroy(loaded->occluder);
     gn_pose_finish(&loaded->pose);
     gn_scene_destroy(loaded->scene);
     free(loaded);
@@ -47,7 +49,10 @@ static void load(struct gn_loader *loader) {
     struct gn_loaded *l = loader->loaded;
     pthread_mutex_unlock(&loader->worker.mutex);
     l->scene = gn_stage_read(loader->path, &loader->limits, &l->warnings, &l->err);
-    if (l->scene) gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
+    if (l->scene) {
+        gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
+        l->occluder = gn_occluder_create(l->scene);
+    }
     pthread_mutex_lock(&loader->worker.mutex);
     loader->state = IS_DONE;
     gn_worker_tell(&loader->worker);

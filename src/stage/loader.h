@@ -8,9 +8,10 @@
 
 struct gn_loader;
 struct gn_loaded {
-    int number;             /* of gn_loader_start(), from 0 */
-    struct gn_scene *scene; /* NULL: failed, see err */
-    struct gn_pose pose;    /* of the scene, with its default clips, at 0 */
+    int number;                   /* of gn_loader_start(), from 0 */
+    struct gn_scene *scene;       /* NULL: failed, see err */
+    struct gn_pose pose;          /* of the scene, with its default clips, at 0 */
+    struct gn_occluder *occluder; /* of the scene */
     struct gn_err err;
     struct gn_warnings warnings;
 };

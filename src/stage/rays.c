@@ -8,6 +8,7 @@
 #include "core/arena.h"
 #include "core/thread.h"
 #include "image/write.h"
+#include "stage/occlusion.h"
 #include "truth/cast.h"
 
 static bool check_memory(const struct gn_stage *stage, const struct gn_plan *plan,
@@ -139,12 +140,48 @@ static bool cast_now(struct gn_stage *stage, const struct gn_plan *plan, struct 
     return true;
 }
 
+/* The share of its sky that each pixel sees, in place of that of a light. */
+static bool cast_occlusion(struct gn_stage *stage, const struct gn_view *view,
+                           const struct gn_plan *plan, struct gn_err *err) {
+    const int width_px = (int)plan->width_px, height_px = (int)plan->height_px;
+    const size_t pixels = (size_t)plan->width_px * plan->height_px;
+    const struct gn_sky sky = gn_stage_sky_of(&view->opts.environment);
+    struct gn_framing framing;
+    struct gn_ray_eye eye;
+    struct gn_raycast seen;
+    struct gn_occlusion occlusion;
+    float *shares =
+        check_memory(stage, plan, err) ? gn_picture_alloc(pixels, sizeof *shares, err) : NULL;
+    if (!shares) return false;
+    gn_frame_camera(view->pose, &view->opts.view, (float)width_px / (float)height_px, &framing);
+    gn_ray_eye_look(&eye, &framing, width_px, height_px);
+    gn_raycast_init(&seen, view->pose->scene, view->pose, NULL);
+    gn_occlusion_init(&occlusion, view->pose->scene, &sky, NULL);
+    gn_cast(&(struct gn_cast_opts){.rays = &seen,
+                                   .eye = &eye,
+                                   .occlusion = &occlusion,
+                                   .pose = view->pose,
+                                   .samples = stage->settings->run.samples,
+                                   .progress = stage->truth.progress,
+                                   .user = stage->truth.user},
+            &shares);
+    gn_occlusion_finish(&occlusion);
+    gn_raycast_finish(&seen);
+    for (size_t i = 0; i < pixels; i++)
+        if (shares[i] < 0.0f) shares[i] = 1.0f; /* the background */
+    stage->truth.visibility = shares;
+    return true;
+}
+
 bool gn_stage_cast(struct gn_stage *stage, const struct gn_view *view, const struct gn_plan *plan,
                    struct gn_err *err) {
     struct gn_rays rays = {.count = 0};
     if (view->rays) return give(stage, plan, view->rays, err);
     free(stage->truth.visibility);
     stage->truth.visibility = NULL;
+    if (plan->aov == GN_AOV_OCCLUSION)
+        return view->opts.shadow.any.technique != GN_TECHNIQUE_TRUTH ||
+               cast_occlusion(stage, view, plan, err);
     bool ok = init_rays(&rays, stage, view, plan, err);
     if (ok && rays.count > 0) ok = cast_now(stage, plan, &rays, err);
     finish_rays(&rays);

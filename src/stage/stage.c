@@ -11,7 +11,9 @@
 #include "stage/environment.h"
 #include "stage/import.h"
 #include "stage/lights.h"
+#include "stage/occlusion.h"
 #include "stage/wake.h"
+#include "truth/occlusion.h"
 
 /* "lesson:solids" */
 static struct gn_scene *read_lesson(const char *path, const struct gn_scene_limits *limits,
@@ -195,6 +197,16 @@ static bool casts_rays(const struct gn_frame_shadow_opts *shadow) {
     return any;
 }
 
+/* Only what an environment lights diffusely: the light of a scene with lamps of its own, which is
+ * as it was made, has none of it, and its start takes no time for it. */
+static bool occludes(const struct gn_settings *o, const struct gn_scene *scene,
+                     const struct gn_frame_environment_opts *e) {
+    const uint64_t most = gn_stage_limits(o).memory_mb << 20;
+    if (o->render.occlusion != GN_OCCLUSION_AUTO || scene->occlusion.size[0] == 0) return false;
+    if (gn_raycast_bytes(scene) > most / 4) return false;
+    return o->render.aov == GN_AOV_OCCLUSION || (e->of && !e->reflected_only);
+}
+
 /* [camera]: what is not given stays as the camera has it. */
 static void set_framing(struct gn_framing_opts *framing, const struct gn_camera_settings *s,
                         const double origin[3]) {
@@ -219,8 +231,7 @@ static struct gn_pose_run run_of(const struct gn_scene_settings *s) {
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err) {
-    const bool of_light = o->render.aov != GN_AOV_COLOR && o->render.aov != GN_AOV_DISTANCE &&
-                          o->render.aov != GN_AOV_NORMAL;
+    const bool of_light = o->render.aov == GN_AOV_VISIBILITY || o->render.aov == GN_AOV_COUNT;
     if (!choose_clips(o, scene, &look->clips, warnings, err) ||
         !choose_variant(o, scene, &look->variant, warnings, err))
         return false;
@@ -234,6 +245,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
         !do_without(o, offsetof(struct gn_settings, render.environment), warnings, err))
         return false;
+    look->frame_opts.occlusion.on = occludes(o, scene, &look->frame_opts.environment);
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     struct gn_frame_environment_opts *e = &look->frame_opts.environment;
     e->shows_key = e->of && e->lights_key && gn_stage_keeps_key(&look->frame_opts.shadow, o, scene);
@@ -243,6 +255,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     const struct gn_scene_limits limits = gn_stage_limits(o);
     look->frame_opts.shadow.maps_bytes = limits.maps_mb << 20;
     look->frame_opts.shadow.triangles = limits.triangles_per_frame;
+    look->frame_opts.overdraw = limits.overdraw;
     if (choose_camera(o, scene, look->clips, &look->frame_opts.view, err)) return true;
     return do_without(o, offsetof(struct gn_settings, scene.camera), warnings, err);
 }
@@ -316,8 +329,17 @@ uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t
     return (uint64_t)width_px * height_px <= MSAA_MOST_PIXELS ? 4 : 0;
 }
 
+void gn_stage_occlude(struct gn_stage *stage, struct gn_view *view) {
+    const int command = stage->settings->run.command;
+    if (!view->opts.occlusion.on) return;
+    if (!stage->occluder) stage->occluder = gn_occluder_create(stage->scene); /* built-in scene */
+    gn_occluder_give(stage->occluder, &view->opts,
+                     command != GN_COMMAND_SHOW && command != GN_COMMAND_AUTO);
+}
+
 void gn_stage_close(struct gn_stage *stage) {
     gn_stage_stop_gl(stage);
+    gn_occluder_destroy(stage->occluder);
     gn_display_close(&stage->display);
     gn_pose_finish(&stage->pose);
     gn_scene_destroy(stage->scene);

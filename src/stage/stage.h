@@ -10,6 +10,8 @@
 #include "options/settings.h"
 #include "stage/view.h"
 
+struct gn_occluder; /* stage/occlusion.h */
+
 /* How the settings draw a scene. */
 struct gn_stage_look {
     struct gn_frame_opts frame_opts;
@@ -23,12 +25,13 @@ struct gn_stage {
     struct gn_pose pose;
     struct gn_display display;
     struct gn_gl *gl;
+    struct gn_occluder *occluder;                   /* of that scene; NULL: none was asked for */
     struct gn_view shown;                           /* of that scene and pose */
     struct gn_stage_truth {                         /* of technique truth */
         void (*progress)(void *user, double share); /* the caller's, as in gn_cast_opts, or NULL */
         void *user;
-        float *visibility; /* of the last picture's first light that is drawn with it: a value for
-                              each pixel, row 0 on top; or NULL */
+        float *visibility; /* of the last picture's first light that is drawn with it, or with aov
+                              OCCLUSION of its sky: a value for each pixel, row 0 on top; or NULL */
     } truth;
 };
 
@@ -37,6 +40,9 @@ struct gn_scene_limits gn_stage_limits(const struct gn_settings *settings);
 /* A scene by its path; NULL: the built-in one. Uses no shared state: it may run in a thread. */
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
+/* Before a plan of the view is built: its occlusion. Where frames are shown it is made beside them,
+ * else at once. */
+void gn_stage_occlude(struct gn_stage *stage, struct gn_view *view);
 /* Checks what the options say about a scene (camera, animation, light, technique). */
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *settings,
                          const struct gn_scene *scene, struct gn_warnings *warnings,

@@ -7,6 +7,7 @@
 #include "core/arena.h"
 #include "truth/penumbra.h"
 #include "truth/sight.h"
+#include "truth/tear.h"
 
 enum { MAP_PX = 1024, STEPS = 256, FAR = 1 << 15 };
 
@@ -23,6 +24,7 @@ const char *const gn_benchmark_measures[GN_BENCHMARK_MEASURE_COUNT] = {
     [GN_BENCHMARK_GAP] = "gap",           [GN_BENCHMARK_WRONG] = "wrong",
     [GN_BENCHMARK_PENUMBRA] = "penumbra", [GN_BENCHMARK_REST] = "rest",
     [GN_BENCHMARK_BIAS] = "bias",         [GN_BENCHMARK_GRAIN] = "grain",
+    [GN_BENCHMARK_TEAR] = "tear",         [GN_BENCHMARK_PIXEL_GRAIN] = "grain",
 };
 
 bool gn_benchmark_name_parse(const char *text, struct gn_benchmark_name *name) {
@@ -145,6 +147,15 @@ static void compare_soft(const float *truth, const float *shot,
     of[GN_BENCHMARK_REST] = score.rest;
     of[GN_BENCHMARK_BIAS] = score.bias;
     of[GN_BENCHMARK_GRAIN] = score.grain;
+    struct gn_tear tear;
+    struct gn_tear_score torn[GN_TEAR_PARTS];
+    gn_tear_init(&tear, &(struct gn_tear_view){.width_px = row->width_px,
+                                               .height_px = row->height_px,
+                                               .truth = share});
+    gn_tear_compare(&tear, shown, 1, torn);
+    gn_tear_finish(&tear);
+    of[GN_BENCHMARK_TEAR] = torn[GN_TEAR_ALL].tear;
+    of[GN_BENCHMARK_PIXEL_GRAIN] = torn[GN_TEAR_ALL].grain;
     free(share);
 }
 

@@ -21,10 +21,14 @@ enum gn_benchmark_measure {
     GN_BENCHMARK_LEAK,
     GN_BENCHMARK_GAP,
     GN_BENCHMARK_WRONG,
-    GN_BENCHMARK_PENUMBRA, /* the last four 0 to 1, as truth/penumbra.h has them */
+    GN_BENCHMARK_PENUMBRA, /* four, 0 to 1, as truth/penumbra.h has them */
     GN_BENCHMARK_REST,
     GN_BENCHMARK_BIAS,
     GN_BENCHMARK_GRAIN,
+    GN_BENCHMARK_TEAR, /* the last two in per cent per pixel, as truth/tear.h has them, of
+                          visibility alone: orientation and edges of things are not in a truth's
+                          file */
+    GN_BENCHMARK_PIXEL_GRAIN,
     GN_BENCHMARK_MEASURE_COUNT,
 };
 struct gn_benchmark_class_row {
@@ -34,7 +38,8 @@ struct gn_benchmark_class_row {
     enum gn_benchmark_measure merit; /* its figure of merit; less is better */
 };
 extern const struct gn_benchmark_class_row gn_benchmark_classes[GN_BENCHMARK_CLASS_COUNT];
-extern const char *const gn_benchmark_measures[GN_BENCHMARK_MEASURE_COUNT]; /* as in files */
+/* As in files, before the unit. */
+extern const char *const gn_benchmark_measures[GN_BENCHMARK_MEASURE_COUNT];
 
 /* The parts of a scene's name: CLASS-LIGHT or CLASS-LIGHT-MORE, of a to z, 0 to 9 and '-'. */
 struct gn_benchmark_name {

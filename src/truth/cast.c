@@ -3,6 +3,8 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include "core/hash.h"
+
 enum { THREADS_MAX = 256 };
 
 struct job {
@@ -17,6 +19,23 @@ static float visibility(const struct gn_cast_opts *opts, const struct gn_ray_lam
                              : (float)gn_raycast_visible(opts->rays, lamp, surface);
 }
 
+/* 1 where a shader reads none. */
+static float occlusion(const struct gn_cast_opts *opts, size_t pixel,
+                       const struct gn_ray_surface *surface) {
+    const struct gn_scene *scene = opts->rays->scene;
+    struct gn_occlusion_site site;
+    double whole = 0;
+    if (!gn_item_is_occluded(scene, &scene->items[surface->item])) return 1;
+    gn_occlusion_site_of(opts->pose, surface, &site);
+    for (int k = 0; k < 2; k++) { /* no bands: each pixel has directions of its own */
+        const uint64_t turn = gn_hash(GN_HASH_INIT + (uint64_t)k, &pixel, sizeof pixel);
+        site.turn[k] = (float)(turn >> 40) * 0x1p-24f;
+    }
+    const double light =
+        gn_occlusion_cast(opts->occlusion, &site, 0, (uint32_t)opts->samples, &whole);
+    return whole > 0 ? (float)(light / whole) : 1;
+}
+
 static bool is_cancelled(const struct gn_cast_opts *opts) {
     return opts->cancel && atomic_load_explicit(opts->cancel, memory_order_relaxed);
 }
@@ -27,6 +46,8 @@ static void cast_row(const struct job *job, int y) {
         const size_t at = (size_t)y * (size_t)opts->eye->width_px + (size_t)x;
         struct gn_ray_surface surface;
         const bool seen = gn_raycast_eye(opts->rays, opts->eye, x, y, &surface);
+        if (opts->occlusion)
+            job->out[0][at] = seen ? occlusion(opts, at, &surface) : GN_CAST_BACKGROUND;
         for (uint32_t i = 0; i < opts->lamp_count; i++)
             job->out[i][at] =
                 seen ? visibility(opts, &opts->lamps[i], &surface) : GN_CAST_BACKGROUND;

@@ -4,7 +4,7 @@
 
 #include <stdatomic.h>
 
-#include "truth/raycast.h"
+#include "truth/occlusion.h"
 
 #define GN_CAST_BACKGROUND (-1.0f)
 
@@ -13,6 +13,9 @@ struct gn_cast_opts {
     const struct gn_ray_eye *eye;
     const struct gn_ray_lamp *lamps;
     uint32_t lamp_count;
+    const struct gn_occlusion *occlusion; /* in place of lamps: which share of its sky is seen, by
+                                             so many rays, in out[0]; NULL: lamps */
+    const struct gn_pose *pose;           /* that the rays are of; with occlusion */
     int samples; /* points of a lamp, as in gn_raycast_share(); 1: its middle alone */
     int threads; /* 0: one for each processor that this process may use */
     /* Called by the calling thread now and then; share: 0 to 1. NULL: none. */
@@ -21,8 +24,8 @@ struct gn_cast_opts {
     const atomic_bool *cancel; /* another thread sets it to end the cast early; or NULL */
 };
 /* For each lamp the visibility of each pixel, 0 dark to 1 lit, row 0 on top; GN_CAST_BACKGROUND
- * where the eye sees nothing. out: lamp_count arrays of the eye's width x height. The same bits
- * with any number of threads. */
+ * where the eye sees nothing. out: lamp_count arrays, or one, of the eye's width x height. The same
+ * bits with any number of threads. */
 void gn_cast(const struct gn_cast_opts *opts, float *const out[]);
 
 #endif

@@ -236,7 +236,7 @@ bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye,
 
     const struct gn_bvh_triangle *t = &rays->bvh.triangles[hit.triangle];
     double a[3], b[3], away[3];
-    *surface = (struct gn_ray_surface){.item = t->item};
+    *surface = (struct gn_ray_surface){.item = t->item, .index = t->index, .u = hit.u, .v = hit.v};
     for (int k = 0; k < 3; k++) {
         surface->point_ws[k] = ray.origin[k] + hit.t * ray.direction[k];
         away[k] = surface->point_ws[k] - eye->position_ws[k];
@@ -285,19 +285,21 @@ static bool out_of_reach(const struct gn_ray_lamp *lamp, const double to[3]) {
     return lamp->type == GN_LIGHT_SPOT && -dot(to, lamp->direction_ws) <= lamp->cos_cone * distance;
 }
 
-static bool casts(const void *context, const struct gn_bvh_triangle *t,
-                  const struct gn_bvh_hit *hit) {
+bool gn_raycast_blocks(const void *context, const struct gn_bvh_triangle *t,
+                       const struct gn_bvh_hit *hit) {
     const struct gn_raycast *rays = context;
     return (t->flags & CASTS) && !is_hole(rays, t, hit);
 }
 
-/* How far off a surface its shadow rays start: some units in the last place of the float
- * coordinates of the triangles there, as in Waechter, Binder 2019, "A Fast and Robust Method for
- * Avoiding Self-Intersection"; and of the doubles that the point was computed from, which are as
- * large as the scene. A share of the scene's size alone would lose contacts in a large scene. */
+/* How far off a surface its shadow rays start: two units in the last place of the float coordinates
+ * of the triangles there, as in Waechter, Binder 2019, "A Fast and Robust Method for Avoiding
+ * Self-Intersection", along the normal: how far off a floor lies sideways is not in it. And of the
+ * doubles that the point was computed from, which are as large as the scene. */
 static double lift_of(const struct gn_raycast *rays, const struct gn_ray_surface *surface) {
-    const double *p = surface->point_ws;
-    return 0x1p-20 * fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2]))) + 0x1p-40 * rays->bvh.diagonal;
+    const double *p = surface->point_ws, *n = surface->normal_ws;
+    double along_m = 0;
+    for (int k = 0; k < 3; k++) along_m += fabs(p[k] * n[k]);
+    return 0x1p-22 * along_m + 0x1p-40 * rays->bvh.diagonal;
 }
 
 static bool casts_itself(const struct gn_raycast *rays, const struct gn_ray_surface *surface) {
@@ -314,13 +316,15 @@ static bool is_blocked(const struct gn_raycast *rays, const struct gn_ray *ray,
                        struct blockers *blockers) {
     uint32_t which;
     struct gn_bvh_hit hit;
-    if (gn_bvh_hit_some(&rays->bvh, ray, blockers->at, blockers->count, casts, rays, &which)) {
+    if (gn_bvh_hit_some(&rays->bvh, ray, blockers->at, blockers->count, gn_raycast_blocks, rays,
+                        &which)) {
         const uint32_t met = blockers->at[which];
         blockers->at[which] = blockers->at[0];
         blockers->at[0] = met;
         return true;
     }
-    if (blockers->complete || !gn_bvh_hit(&rays->bvh, ray, true, casts, rays, &hit)) return false;
+    if (blockers->complete || !gn_bvh_hit(&rays->bvh, ray, true, gn_raycast_blocks, rays, &hit))
+        return false;
     blockers->at[0] = hit.triangle;
     blockers->count = 1;
     return true;

@@ -42,6 +42,9 @@ void gn_raycast_finish(struct gn_raycast *rays);
 /* What gn_raycast_init() takes at most for a scene. */
 uint64_t gn_raycast_bytes(const struct gn_scene *scene);
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle); /* one of rays->bvh.triangles */
+/* The same where the hit is in no hole: a gn_bvh_accept whose context are the rays. */
+bool gn_raycast_blocks(const void *rays, const struct gn_bvh_triangle *triangle,
+                       const struct gn_bvh_hit *hit);
 
 /* A camera at a pose, framed for a picture size (scene/framing.h). An orthographic one keeps its
  * vertical half-size; the picture's shape gives the horizontal one. Every
@@ -66,6 +69,8 @@ struct gn_ray_surface {
     double normal_ws[3]; /* unit, of the triangle, towards the side it is seen from */
     double distance_m;   /* from the eye */
     uint32_t item;       /* GN_RAY_NO_ITEM: a bare point, taken as part of something that casts */
+    uint32_t index;      /* with an item: first index of the triangle in buffers.indices */
+    double u, v;         /* the same: as in gn_bvh_hit, by its corners */
 };
 #define GN_RAY_NO_ITEM UINT32_MAX
 

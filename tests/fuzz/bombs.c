@@ -9,6 +9,7 @@
 #include "core/arena.h"
 #include "fuzz/bomb_file.h"
 #include "fuzz/bomb_pictures.h"
+#include "shadow/technique.h"
 
 /* How many a kind adds. */
 static int some(struct gn_bomb *b) { return (int)gn_bomb_magnitude(b, b->most); }
@@ -190,8 +191,6 @@ static void add_nodes(struct gn_bomb *b) {
 
 static void add_lights(struct gn_bomb *b) {
     static const char *const types[] = {"directional", "point", "spot"};
-    static const char *const names[] = {"hard", "pcf",  "pcss",   "vsm",
-                                        "msm",  "smsm", "planar", "none"};
     for (int n = gn_bomb_below(b, 2) ? 16 : some(b); n > 0; n--) {
         const int light = gn_bomb_begin(b, GN_BOMB_LIGHTS);
         struct gn_bomb_text *text = &b->arrays[GN_BOMB_LIGHTS];
@@ -199,7 +198,7 @@ static void add_lights(struct gn_bomb *b) {
                     exp2(gn_dice_between(&b->dice, -9, 100)));
         gn_bomb_put(
             text, ",'extras':{'gnomon_map_px':%" PRIu64 ",'gnomon_shadow':'%s','gnomon_radius':%g",
-            gn_bomb_magnitude(b, 70000), names[gn_bomb_below(b, 8)],
+            gn_bomb_magnitude(b, 70000), gn_techniques[gn_bomb_below(b, GN_TECHNIQUE_COUNT)].name,
             exp2(gn_dice_between(&b->dice, -20, 120)));
         if (b->arrays[GN_BOMB_TEXTURES].count > 0)
             gn_bomb_put(text, ",'gnomon_slide':%d",

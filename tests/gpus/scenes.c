@@ -163,7 +163,6 @@ static void add_lights(struct gn_maker *m, enum gn_gpu_scene scene) {
     case GN_GPU_SUN:
     case GN_GPU_FEW_MATERIALS:
     case GN_GPU_POSED:
-    case GN_GPU_LOOK:
     case GN_GPU_MATERIALS: add_lamp(m, lights, GN_LIGHT_DIRECTIONAL, NULL, false, 0); break;
     case GN_GPU_POINT: add_lamp(m, lights, GN_LIGHT_POINT, NULL, false, 0); break;
     case GN_GPU_SPOT: add_lamp(m, lights, GN_LIGHT_SPOT, NULL, false, 0); break;
@@ -203,7 +202,7 @@ struct gn_scene *gn_gpu_scene_make(enum gn_gpu_scene scene) {
     add_texture(&m);
     for (int i = 0; i < MATERIAL_COUNT; i++) gn_maker_add(&m, "materials", materials[i]);
     const struct square square = add_square(&m);
-    const bool look = scene == GN_GPU_LOOK; /* a ground would be its floor */
+    const bool look = scene == GN_GPU_LOOK; /* which has the light and the floor that are made */
     if (!look) add_card(&m, square.plain, 0, 0, 0, 60);
     /* a row of them, longer than what an eye sees that is near: the sun's map goes with it */
     for (int i = -5; i <= 5 && !look; i++) add_card(&m, square.plain, 0, 3.3f * (float)i, 1, 1);
@@ -218,9 +217,14 @@ struct gn_scene *gn_gpu_scene_make(enum gn_gpu_scene scene) {
     }
     if (scene == GN_GPU_POSED) add_posed(&m, &square);
     if (scene == GN_GPU_CROWD) add_card(&m, square.plain, GLASS, 0, 2, 1);
-    add_lights(&m, scene);
+    if (!look) add_lights(&m, scene);
     add_scene(&m);
-    struct gn_scene *made = gn_maker_load(&m, &warnings, &err);
+    const struct gn_scene_limits limits = {.floor.kind = look ? GN_FLOOR_AUTO : GN_FLOOR_NONE};
+    struct gn_made glb = gn_maker_glb(&m);
+    struct gn_scene *made =
+        gn_scene_load_bytes("gpus", glb.data, glb.size, &limits, &warnings, &err);
+    free(glb.data);
+    gn_maker_finish(&m);
     if (made && warnings.count == 0) return made;
     fprintf(stderr, "scene %d: %s\n", (int)scene, made ? warnings.text[0] : err.text);
     abort();

@@ -35,7 +35,16 @@ below() {
 }
 "$gnomon" score "$folder/with" --benchmark "$scenes" --csv > "$folder/out" || complain 'scores'
 below field .3 && below contact .3 && below soft .05 || complain "gnomon's own: $(cat "$folder/out")"
+# the figure of COLUMN, the mean of class soft
+of_soft() {
+    awk -F , -v name="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i }
+        $1 == "mean" && $2 == "soft" { print $at }' "$folder/out"
+}
+torn="$(of_soft tear_percent_px) $(of_soft grain_percent_px)"
+echo "$torn" | awk '{ exit !($1 > 0 && $2 > $1 && $2 < .5) }' || complain "tear and grain of pcss: $torn"
 "$gnomon" score "$folder/without" --benchmark "$scenes" --csv > "$folder/out" || complain 'scores without shadows'
 ! below field 1 && ! below contact 90 && ! below soft .3 || complain "without shadows: $(cat "$folder/out")"
+torn="$(of_soft tear_percent_px) $(of_soft grain_percent_px)"
+[ "$torn" = '0 0' ] || complain "tear and grain of what is all lit: $torn"
 
 exit $bad

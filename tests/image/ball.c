@@ -11,11 +11,13 @@ int gn_ball_add(struct gn_maker *maker, float radius_m) {
     const double pi = acos(-1), r = (double)radius_m;
     char box[100];
     for (int i = 0; i < POINTS; i++) {
-        const double down = pi * (i / (AROUND + 1)) / DOWN,
-                     around = 2 * pi * (i % (AROUND + 1)) / AROUND;
-        normals[i][0] = (float)(sin(down) * cos(around));
+        /* to the bit the same where the ends of a row, and the points of a pole, meet */
+        const int row = i / (AROUND + 1);
+        const double down = pi * row / DOWN, around = 2 * pi * (i % (AROUND + 1) % AROUND) / AROUND,
+                     out = row % DOWN ? sin(down) : 0;
+        normals[i][0] = (float)(out * cos(around));
         normals[i][1] = (float)cos(down);
-        normals[i][2] = (float)(sin(down) * sin(around));
+        normals[i][2] = (float)(out * sin(around));
         for (int k = 0; k < 3; k++) places[i][k] = radius_m * normals[i][k];
     }
     for (int i = 0; i < AROUND * DOWN; i++) {

@@ -5,7 +5,7 @@
 #include "unit/gltf_maker.h"
 
 /* Three accessors, of which the first is returned: positions, normals, indices. Its centre is the
- * origin; at most 64 x 32 facets. */
+ * origin; at most 64 x 32 facets. It is watertight. */
 int gn_ball_add(struct gn_maker *maker, float radius_m);
 
 /* A Radiance file: the same radiance from everywhere, a power of two. False if it cannot be

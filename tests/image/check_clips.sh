@@ -43,6 +43,7 @@ shadow = hard
 [mode "Anew"]
 shadow = hard
 animation_restart = yes
+animation_speed = 2
 [mode "Still"]
 shadow = hard
 animation_speed = 0
@@ -71,7 +72,7 @@ begins() {
     sleep 1
     stands "$1"
     new=$(($(frames) - before))
-    [ "$new" -gt $((passed + 20)) ] || complain "$1: $new frames, and $passed of clips that have ended"
+    [ "$new" -gt $((passed + 8)) ] || complain "$1: $new frames, and $passed of clips that have ended"
     begun="$begun $new"
 }
 begun=''

@@ -7,8 +7,9 @@
 #include <stdio.h>
 
 #include "image/truth.h"
+#include "shadow/technique.h"
 
-enum { GN_TABLE_SCENES = 45, GN_TABLE_ROWS = 80 };
+enum { GN_TABLE_SCENES = 45, GN_TABLE_ROWS = 8 * GN_TECHNIQUE_COUNT };
 
 /* The scenes go by kinds of light, and those of coarse meshes with smooth normals are a kind, each
  * with a table of its own: what is asked of one kind must not hide behind another. */

@@ -365,7 +365,7 @@ static void test_thin_blockers_high_over_low_ones(void **state) {
 
 /* A folder of shaders in which cone says 0 wherever it goes on after its first read. */
 static char *make_shaders(void) {
-    static const char after[] = "return s.horizon;";
+    static const char after[] = "if (inside > 0.0) {";
     struct gn_bytes text = {0};
     struct gn_err err = {0};
     char path[300], command[400];

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "image/shot.h"
+#include "shadow/technique.h"
 #include "unit/check.h"
 #include "unit/gltf_maker.h"
 
@@ -92,25 +93,23 @@ static uint32_t seam_pixels(const struct gn_picture *truth, const struct gn_pict
 
 static void test_shadows_on_it_are_true(void **state) {
     (void)state;
-    static const char *const techniques[] = {"hard", "pcf",  "pcf3", "disk",  "pcss",
-                                             "cone", "evsm", "msm",  "planar"};
     const char *scene = write_scene("true", "", "[1,1,1]");
     struct gn_picture truth = draw(scene, "auto", "truth", "pfm", true);
     uint32_t dark = 0;
     for (int i = 0; i < truth.width_px * truth.height_px; i++)
         dark += truth.data[(size_t)i * (size_t)truth.channels] == 0;
     assert_in_range(dark, 2000, 40000); /* the shadows on the floor are large */
-    for (size_t i = 0; i < sizeof techniques / sizeof techniques[0]; i++) {
-        struct gn_picture shot = draw(scene, "auto", techniques[i], "pfm", true);
+    for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
+        const char *name = gn_techniques[i].name;
+        if (!gn_techniques[i].file) continue;
+        struct gn_picture shot = draw(scene, "auto", name, "pfm", true);
         const double wrong = wrong_share(&truth, &shot);
         const uint32_t seam = seam_pixels(&truth, &shot);
-        print_message("%s: %.3f %% wrong, %u lit pixels in the dark\n", techniques[i], 100 * wrong,
-                      seam);
-        if (seam > 4 && strcmp(techniques[i], "planar") != 0)
-            fail_msg("%s: a seam of %u pixels", techniques[i], seam);
+        print_message("%s: %.3f %% wrong, %u lit pixels in the dark\n", name, 100 * wrong, seam);
+        if (seam > 4 && !gn_techniques[i].on_plane) fail_msg("%s: a seam of %u pixels", name, seam);
         /* planar shadows are on the floor alone */
-        if (wrong > (strcmp(techniques[i], "planar") == 0 ? .03 : .0005))
-            fail_msg("%s: wrong %.4f", techniques[i], wrong);
+        if (wrong > (gn_techniques[i].on_plane ? .03 : .0005))
+            fail_msg("%s: wrong %.4f", name, wrong);
         gn_picture_finish(&shot);
     }
     gn_picture_finish(&truth);

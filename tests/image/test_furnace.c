@@ -16,9 +16,9 @@
 #include "unit/check.h"
 #include "unit/gltf_maker.h"
 
-enum { ROUGHNESSES = 9, WIDTH = 480, HEIGHT = 120 };
+enum { ROUGHNESSES = 9, WIDTH = 480, HEIGHT = 120, FINE = 3 };
 
-enum { ROWS = 6, GREY = ROWS, SCENES };
+enum { ROWS = 6, GREY = ROWS, BLACK, SCENES };
 static char folder[512], scenes[SCENES][600], uniform[600], half[600];
 
 /* A row of spheres of rising roughness, white or grey. light: one of its own, unlike any other. */
@@ -60,14 +60,21 @@ static void write_spheres(const char *path, double metalness, double base, const
     if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
 }
 
-static struct gn_picture draw(const char *scene, const char *environment, const char *more,
-                              const char *value) {
+static struct gn_picture draw_at(int scale, const char *scene, const char *environment,
+                                 const char *more, const char *value) {
     struct gn_err err = {0};
     struct gn_picture picture;
-    const char *const args[] = {"--environment", environment, "--output", "linear", "--size",
-                                "480x120",       more,        value,      NULL};
+    char size[40];
+    snprintf(size, sizeof size, "%dx%d", scale * WIDTH, scale * HEIGHT);
+    const char *const args[] = {
+        "--environment", environment, "--output", "linear", "--size", size, more, value, NULL};
     if (!gn_shot(&picture, NULL, &err, "pfm", scene, args)) fail_msg("%s", err.text);
     return picture;
+}
+
+static struct gn_picture draw(const char *scene, const char *environment, const char *more,
+                              const char *value) {
+    return draw_at(1, scene, environment, more, value);
 }
 
 /* Of the pixels of sphere i that are wholly inside its outline. */
@@ -123,24 +130,75 @@ static void test_grey_metals_lose_what_microfacets_lose(void **state) {
     gn_picture_finish(&picture);
 }
 
+/* Share of white light from all sides that a surface of the reflectance 0.04 returns, as a sphere
+ * shows it: the mean over its pixels but for the rim, from this cosine on. Single scattering of
+ * GGX, by importance: Karis, "Real Shading in Unreal Engine 4" (2013); masking after Heitz,
+ * "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs" (2014). */
+#define LEAST 0.3
+static double returned_by(double roughness) {
+    enum { COSINES = 32, SIDE = 48 };
+    const double a2 = pow(roughness, 4), pi = acos(-1);
+    double sum = 0, area = 0;
+    for (int k = 0; k < COSINES; k++) {
+        const double n_v = LEAST + (1 - LEAST) * (k + .5) / COSINES;
+        area += n_v;
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            const double at = (i / SIDE + .5) / SIDE;
+            const double n_h = sqrt((1 - at) / (1 + (a2 - 1) * at)),
+                         around = 2 * pi * (i % SIDE + .5) / SIDE;
+            const double v_h = sqrt((1 - n_v * n_v) * (1 - n_h * n_h)) * cos(around) + n_v * n_h;
+            const double n_l = 2 * v_h * n_h - n_v;
+            if (n_l <= 0) continue;
+            const double light = n_v * sqrt(n_l * n_l * (1 - a2) + a2),
+                         eye = n_l * sqrt(n_v * n_v * (1 - a2) + a2);
+            const double fresnel = 0.04 + 0.96 * pow(1 - fmax(v_h, 0), 5);
+            sum += n_v * fresnel * 2 * n_l * v_h / ((light + eye) * n_h) / (SIDE * SIDE);
+        }
+    }
+    return sum / area;
+}
+
+static void test_black_spheres_reflect_what_microfacets_do(void **state) {
+    (void)state;
+    struct gn_picture picture = draw(scenes[BLACK], uniform, NULL, NULL);
+    for (int i = 1; i < ROUGHNESSES; i++) {
+        const double roughness = i / (ROUGHNESSES - 1.0), wanted = returned_by(roughness);
+        const int middle = WIDTH / 2 + (i - ROUGHNESSES / 2) * WIDTH / 10, r = WIDTH / 20;
+        const double within = (1 - LEAST * LEAST) * pow(0.45 * WIDTH / 10, 2);
+        double sum = 0, count = 0;
+        for (int y = -r; y < r; y++)
+            for (int x = -r; x < r; x++) {
+                if ((x + .5) * (x + .5) + (y + .5) * (y + .5) > within) continue;
+                sum += (double)*gn_picture_at(&picture, middle + x, HEIGHT / 2 + y);
+                count++;
+            }
+        const double here = sum / count;
+        print_message("roughness %.3f: %.4f, by GGX %.4f\n", roughness, here, wanted);
+        if (fabs(here - wanted) > 0.12 * wanted) fail_msg("%.4f", here / wanted);
+    }
+    gn_picture_finish(&picture);
+}
+
 static int count_bright(const struct gn_picture *picture) {
     int count = 0;
-    const int x0 = WIDTH / 2 - ROUGHNESSES / 2 * WIDTH / 10, r = 20;
+    const int x0 = FINE * (WIDTH / 2 - ROUGHNESSES / 2 * WIDTH / 10), r = FINE * 20;
     for (int y = -r; y <= r; y++)
-        for (int x = -r; x <= r; x++) count += *gn_picture_at(picture, x0 + x, HEIGHT / 2 + y) > 8;
+        for (int x = -r; x <= r; x++)
+            count += *gn_picture_at(picture, x0 + x, FINE * HEIGHT / 2 + y) > 8;
     return count;
 }
 
-/* The studio's first box has the radiance 17; all others 3 at most. A light that was moved is no
+/* So large that a highlight is wider than a pixel, which no highlight is narrower than.
+ * The studio's first box has the radiance 17; all others 3 at most. A light that was moved is no
  * longer the box: then the mirror shows as much of it as of the others, and a small highlight. */
 static void test_a_mirror_shows_the_key_as_the_environment_has_it(void **state) {
     (void)state;
-    struct gn_picture kept = draw(scenes[1], "studio", NULL, NULL),
-                      moved = draw(scenes[1], "studio", "--light-elevation", "30");
+    struct gn_picture kept = draw_at(FINE, scenes[1], "studio", NULL, NULL),
+                      moved = draw_at(FINE, scenes[1], "studio", "--light-elevation", "30");
     const int there = count_bright(&kept), elsewhere = count_bright(&moved);
     print_message("%d pixels of a mirror show the key, %d if the light is elsewhere\n", there,
                   elsewhere);
-    assert_true(there >= 8 && elsewhere <= 2);
+    assert_true(there >= 8 * FINE * FINE && elsewhere <= 2 * FINE * FINE);
     gn_picture_finish(&kept);
     gn_picture_finish(&moved);
 }
@@ -390,6 +448,7 @@ static int set_up(void **state) {
     write_spheres(scenes[4], 0, 1, COAT("0.5", "0.7"), false);
     write_spheres(scenes[5], 1, 1, COAT("1", "0.2"), false);
     write_spheres(scenes[GREY], 1, 0.5, "", false);
+    write_spheres(scenes[BLACK], 0, 0, "", false);
     return gn_uniform_write(uniform, 0) && gn_uniform_write(half, -1) ? 0 : 1;
 }
 
@@ -404,6 +463,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_white_spheres_lose_nothing_in_uniform_light),
         cmocka_unit_test(test_grey_metals_lose_what_microfacets_lose),
+        cmocka_unit_test(test_black_spheres_reflect_what_microfacets_do),
         cmocka_unit_test(test_a_mirror_shows_the_key_as_the_environment_has_it),
         cmocka_unit_test(test_strength_and_exposure_are_factors),
         cmocka_unit_test(test_the_environment_turns),

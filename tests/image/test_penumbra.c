@@ -9,6 +9,7 @@
 #include "image/compare.h"
 #include "image/penumbra.h"
 #include "image/shot.h"
+#include "shadow/technique.h"
 #include "unit/check.h"
 
 enum { QUICK_W = 240, QUICK_H = 180, FULL_W = 640, FULL_H = 480 };
@@ -105,10 +106,10 @@ static void check_splits(const char *path, const struct gn_picture *truth, const
 
 static void test_no_split_is_seen_in_a_penumbra(void **state) {
     (void)state;
-    static const char *const techniques[] = {"pcss", "cone", "vssm", "smsm"};
     struct gn_picture truth;
     const char *path = make_of_size(GN_PENUMBRA_FIELD, &truth, FULL_W, FULL_H);
-    for (int t = 0; t < 4; t++) check_splits(path, &truth, techniques[t]);
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+        if (gn_techniques[t].soft) check_splits(path, &truth, gn_techniques[t].name);
 }
 
 static void check_scene(int scene) {
@@ -156,14 +157,14 @@ static void test_cones(void **state) {
 
 /* The limits are wider than those of pcss, whose taps know each blocker by itself. */
 static void check_tables(int scene) {
-    static const char *const techniques[] = {"vssm", "smsm"};
     struct gn_picture truth;
     const char *path = make(scene, &truth);
     struct gn_penumbra_score hard = score_of(path, &truth, "hard", "r16f");
-    for (int t = 0; t < 2; t++) {
-        struct gn_penumbra_score score = score_of(path, &truth, techniques[t], "auto");
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++) {
+        if (gn_techniques[t].filter != GN_FILTER_TABLE) continue;
+        struct gn_penumbra_score score = score_of(path, &truth, gn_techniques[t].name, "auto");
         print_message("%-7s %-8s soft %.4f (hard %.4f, %.2f of it), rest %.4f\n",
-                      gn_penumbra_names[scene], techniques[t], score.soft, hard.soft,
+                      gn_penumbra_names[scene], gn_techniques[t].name, score.soft, hard.soft,
                       score.soft / hard.soft, score.rest);
         assert_true(score.soft_pixels > 200);
         assert_true(score.soft <= .13);
@@ -192,42 +193,43 @@ static void check_edge(const char *path, const struct gn_picture *truth, const c
 /* Blurred ones know no penumbrae, but what is fully lit or dark, of casters that span 850 m. */
 static void test_moments_of_a_field(void **state) {
     (void)state;
-    static const char *const techniques[] = {"vsm", "evsm", "msm"};
     struct gn_picture truth;
     const char *path = make(GN_PENUMBRA_FIELD, &truth);
-    for (int t = 0; t < 3; t++) {
-        struct gn_penumbra_score score = score_of(path, &truth, techniques[t], "auto");
-        print_message("field   %-8s rest %.4f\n", techniques[t], score.rest);
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++) {
+        if (gn_techniques[t].filter != GN_FILTER_BLUR) continue;
+        struct gn_penumbra_score score = score_of(path, &truth, gn_techniques[t].name, "auto");
+        print_message("field   %-8s rest %.4f\n", gn_techniques[t].name, score.rest);
         assert_true(score.rest <= .03);
     }
 }
 
 static void test_the_edge_of_a_half_plane_is_exact(void **state) {
     (void)state;
-    static const char *const techniques[] = {"pcss", "cone", "vssm", "smsm"};
     struct gn_picture truth;
     const char *path = make(GN_PENUMBRA_EDGE, &truth);
-    for (int t = 0; t < 4; t++) check_edge(path, &truth, techniques[t]);
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+        if (gn_techniques[t].soft) check_edge(path, &truth, gn_techniques[t].name);
 }
 
 /* A filter three texels wide: the map is coarse, so that its penumbra is many pixels wide. */
 static void test_disks_are_monotone_and_hardly_grainy(void **state) {
     (void)state;
-    static const char *const techniques[] = {"disk", "poisson"};
     struct gn_picture truth;
     const char *path = make(GN_PENUMBRA_EDGE, &truth);
-    for (int t = 0; t < 2; t++) {
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++) {
+        const char *name = gn_techniques[t].name;
+        if (!gn_techniques[t].taps || gn_techniques[t].soft || t == GN_TECHNIQUE_WHITE) continue;
         struct gn_err err = {0};
         struct gn_picture shot, again;
         const char *const args[] = {"--aov",     "visibility", "--size",   "480x360",
-                                    "--backend", "egl",        "--shadow", techniques[t],
+                                    "--backend", "egl",        "--shadow", name,
                                     "--map",     "32",         NULL};
         if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
         if (!gn_shot(&again, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
         struct gn_penumbra_edge edge;
         gn_penumbra_edge(&shot, &shot, &edge);
-        print_message("%s: %.3f m wide, grain %.3f, back %.4f\n", techniques[t], edge.width,
-                      edge.grain, edge.rise);
+        print_message("%s: %.3f m wide, grain %.3f, back %.4f\n", name, edge.width, edge.grain,
+                      edge.rise);
         assert_true(edge.width > .05); /* it is wide enough to be looked at */
         assert_true(edge.grain <= .08);
         assert_true(edge.rise <= .01);

@@ -86,13 +86,17 @@ static bool is_on_plane(const struct gn_truth *truth, const struct gn_scene *sce
 /* Every so many pixels; samples: of what is partly seen by the first. */
 enum { STRIDE = 5, FEW = 128, MANY = 1536 };
 
-/* The share of the lamp that pixels of the plane see, by MANY rays, every STRIDE pixels; -1 where
- * the first FEW see all or nothing of it, and off the plane. Returns how many are in penumbrae. */
-static int find_shares(const struct gn_scene *scene, float *shares) {
+static float shares[PIXELS];
+static int on[GN_PLANES_MAX + 1]; /* how many of them are on each plane */
+
+/* The share of the lamp that pixels of the planes see, by MANY rays, every STRIDE pixels; -1 where
+ * the first FEW see all or nothing of it, and off the planes. Returns how many are in penumbrae. */
+static int find_shares(const struct gn_scene *scene) {
     struct gn_truth truth;
     struct gn_pose pose;
     struct gn_raycast rays;
     int count = 0;
+    memset(on, 0, sizeof on);
     find_truth(&truth, scene);
     gn_pose_init(&pose, scene, GN_POSE_NONE);
     gn_raycast_init(&rays, scene, &pose, NULL);
@@ -105,6 +109,7 @@ static int find_shares(const struct gn_scene *scene, float *shares) {
         const double few = gn_raycast_share(&rays, &truth.frame.lamp, &surface, FEW);
         if (few <= 0 || few >= 1) continue;
         shares[i] = (float)gn_raycast_share(&rays, &truth.frame.lamp, &surface, MANY);
+        on[scene->items[truth.mask.item[i]].plane]++;
         count++;
     }
     gn_raycast_finish(&rays);
@@ -114,7 +119,7 @@ static int find_shares(const struct gn_scene *scene, float *shares) {
 }
 
 /* Root mean square of visibility in `picture` less the shares. */
-static double error_of(const float *shares) {
+static double error_of(void) {
     double sum = 0;
     int count = 0;
     for (int i = 0; i < PIXELS; i++) {
@@ -132,7 +137,6 @@ static void test_penumbrae_agree_with_truth(void **state) {
         uint32_t points;
         double most;
     } counts[] = {{16, .05}, {64, .02}, {256, .01}};
-    static float shares[PIXELS];
     struct soft s;
     bool ok = true;
     for (size_t l = 0; l < GN_PLANAR_LIGHTS; l++)
@@ -140,13 +144,13 @@ static void test_penumbrae_agree_with_truth(void **state) {
             struct gn_scene *scene =
                 gn_planar_scene(gn_planar_turns[t].turn, &gn_planar_lights[l], gn_planar_things);
             scene->lights[0].radius = radii[l];
-            const int pixels = find_shares(scene, shares);
+            const int pixels = find_shares(scene);
             assert_true(pixels > 400);
             for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
                 begin(&s, scene, counts[k].points, 0);
                 draw(&s);
                 end(&s);
-                const double error = error_of(shares);
+                const double error = error_of();
                 printf("%s, %s, %3u points: %.4f over %d pixels\n", gn_planar_lights[l].name,
                        gn_planar_turns[t].name, counts[k].points, error, pixels);
                 ok &= error <= counts[k].most;
@@ -162,26 +166,19 @@ static void test_penumbrae_agree_with_truth(void **state) {
  * and wall each other. In colour the two are passes of the same programs. */
 static void test_floor_and_wall_agree_with_truth(void **state) {
     (void)state;
-    static float shares[PIXELS];
     char nodes[2000];
     snprintf(nodes, sizeof nodes, "%s%s", gn_planar_things, GN_PLANAR_WALL);
     for (size_t l = 0; l < GN_PLANAR_LIGHTS; l++) {
         struct gn_scene *scene =
             gn_planar_scene(gn_planar_turns[l].turn, &gn_planar_lights[l], nodes);
         struct soft s;
-        struct gn_truth truth;
-        int on_wall = 0;
         scene->lights[0].radius = l ? 0.5f : 0.2f;
-        find_shares(scene, shares);
-        find_truth(&truth, scene);
-        for (int i = 0; i < PIXELS; i++)
-            on_wall += shares[i] >= 0 && scene->items[truth.mask.item[i]].plane == 2;
-        gn_truth_finish(&truth);
+        find_shares(scene);
         begin(&s, scene, 64, 0);
         draw(&s);
-        const double error = error_of(shares);
-        printf("%s: %.4f, %d pixels on the wall\n", gn_planar_lights[l].name, error, on_wall);
-        assert_true(on_wall > 15 && error <= .02);
+        const double error = error_of();
+        printf("%s: %.4f, %d pixels on the wall\n", gn_planar_lights[l].name, error, on[2]);
+        assert_true(on[2] > 15 && error <= .02);
         end(&s);
         gn_scene_destroy(scene);
     }
@@ -190,24 +187,18 @@ static void test_floor_and_wall_agree_with_truth(void **state) {
 /* Nothing is named: a floor and two walls are found where the lamp throws shadows on them. */
 static void test_a_room_is_found_and_agrees_with_truth(void **state) {
     (void)state;
-    static float shares[PIXELS];
     for (size_t l = 0; l < GN_PLANAR_LIGHTS; l++) {
         struct gn_scene *scene = gn_planar_room(&gn_planar_lights[l]);
         struct soft s;
-        struct gn_truth truth;
-        int planes = 0, on[GN_PLANES_MAX + 1] = {0};
+        int planes = 0;
         scene->lights[0].radius = l ? 0.5f : 0.2f;
         assert_false(scene->planes_named);
-        find_shares(scene, shares);
-        find_truth(&truth, scene);
+        find_shares(scene);
         for (uint32_t i = 0; i < scene->item_count; i++)
             if (scene->items[i].plane > planes) planes = scene->items[i].plane;
-        for (int i = 0; i < PIXELS; i++)
-            if (shares[i] >= 0) on[scene->items[truth.mask.item[i]].plane]++;
-        gn_truth_finish(&truth);
         begin(&s, scene, 64, 0);
         draw(&s);
-        const double error = error_of(shares);
+        const double error = error_of();
         printf("%s: %.4f, %d planes, pixels on them %d, %d, %d\n", gn_planar_lights[l].name, error,
                planes, on[1], on[2], on[3]);
         assert_int_equal(planes, 3);

@@ -9,14 +9,18 @@
 #include "image/table.h"
 #include "shadow/technique.h"
 
+/* All that compare a fixed kernel of texels. */
+static void add_kernels(struct gn_table *table, unsigned map_px) {
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
+        if (gn_techniques[t].one_code) gn_table_add(table, gn_techniques[t].name, "depth", map_px);
+}
+
 static void quick_rows(struct gn_table *table) {
     for (int i = 0; i < GN_TABLE_SCENES; i++)
         table->scenes[i] = i % 3 == 1 || i == 18 || i >= gn_table_kinds[GN_TABLE_POINT].first;
     gn_table_add(table, "hard", "r16f", 1024);
     gn_table_add(table, "hard", "depth", 1024);
-    gn_table_add(table, "pcf", "depth", 1024);
-    gn_table_add(table, "pcf2", "depth", 1024);
-    gn_table_add(table, "pcf3", "depth", 1024);
+    add_kernels(table, 1024);
     gn_table_add(table, "planar", "auto", 1024);
     gn_table_add(table, "msm", "auto", 1024);
 }
@@ -37,14 +41,12 @@ static void add_technique(struct gn_table *table, enum gn_technique technique, u
 
 /* A tile of a point light sees 90 degrees, whatever there is: 256 texels are too few for limits. */
 static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
-    static const char *const further[] = {"pcf", "pcf2", "pcf3", "pcf5"};
     static const unsigned maps[] = {1024, 256}, further_maps[] = {512, 2048, 4096};
     for (int i = 0; i < GN_TABLE_SCENES; i++) table->scenes[i] = true;
     for (int m = 0; m < (kind == GN_TABLE_POINT ? 1 : 2); m++)
         for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
             add_technique(table, (enum gn_technique)t, maps[m]);
-    for (int m = kind == GN_TABLE_POINT ? 1 : 0; m < 3; m++)
-        for (int t = 0; t < 4; t++) gn_table_add(table, further[t], "depth", further_maps[m]);
+    for (int m = kind == GN_TABLE_POINT ? 1 : 0; m < 3; m++) add_kernels(table, further_maps[m]);
 }
 
 /* A spoilt table must not pass: the truth of one scene turned round counts as acne and as leaks. */

@@ -214,10 +214,12 @@ static void test_arrows_that_the_configuration_gives_to_a_button_are_its(void **
 static void test_e_switches_the_environment(void **state) {
     (void)state;
     struct window_shown s;
-    show_quietly(&s, window_scene, "[render]\ntone = none\n");
+    /* occlusion comes later, and fades in: test_stage_occlusion */
+    show_quietly(&s, window_scene, "[render]\ntone = none\nocclusion = none\n");
     assert_shows(&s, window_scene, NULL, "viewer-environment");
     press(&s, XK_e);
-    assert_shows(&s, window_scene, (const char *const[]){"--environment", "studio", NULL},
+    assert_shows(&s, window_scene,
+                 (const char *const[]){"--environment", "studio", "--occlusion", "none", NULL},
                  "viewer-studio");
     press(&s, XK_e);
     assert_shows(&s, window_scene, (const char *const[]){"--environment", "none", NULL},

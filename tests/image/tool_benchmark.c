@@ -177,7 +177,7 @@ static void take_picture(const struct work *work, int index) {
 
 /* ---- the table ---- */
 
-enum { COLUMNS = 9 };
+enum { COLUMNS = 11 };
 static const struct {
     const char *head, *kind, *measure; /* NULL: as in the techniques page */
     bool on_page;
@@ -191,6 +191,8 @@ static const struct {
     {"penumbra", "soft", "penumbra", true},
     {"thin", "thin", "penumbra", false},
     {"contact gap", "contact", "gap_percent", false},
+    {"tear", "soft", "tear_percent_px", false},
+    {"grain", "soft", "grain_percent_px", false},
 };
 
 /* Two digits that count, as in the techniques page. */

@@ -76,6 +76,13 @@ static struct gn_program_key filter(enum gn_technique technique, enum gn_filter_
     return key;
 }
 
+static struct gn_program_key floor_alpha(void) {
+    struct gn_program_key key = filter(GN_TECHNIQUE_FLOOR, GN_STEP_FLOOR);
+    key.encoding = GN_ENCODING_MEAN;
+    key.features = GN_FEATURE(OCCLUSION_TEXTURE);
+    return key;
+}
+
 static const char *const moments_formats[GN_MOMENTS_COUNT] = {
     [GN_MOMENTS_RG32UI] = "RG32UI",           [GN_MOMENTS_RGBA16UI] = "RGBA16UI",
     [GN_MOMENTS_RGBA16F] = "RGBA16F",         [GN_MOMENTS_RGBA16F_MIPS] = "RGBA16F",
@@ -188,7 +195,53 @@ static bool write_all(const char *folder, struct gn_err *err) {
     return true;
 }
 
-int main(int argc, char **argv) {
+/* The passes of all filters, as TECHNIQUE-PASS; those that techniques share once. */
+static bool write_filters(const char *folder, struct gn_err *err) {
+    uint64_t written[GN_MOMENTS_COUNT] = {0}; /* bits of steps that read moments alone */
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++) {
+        const struct gn_filter_row *row = &gn_filters[gn_techniques[t].filter];
+        for (uint32_t i = 0; i < row->count; i++) {
+            const enum gn_filter_step step = (enum gn_filter_step)row->stages[i].step;
+            const struct gn_program_key key = filter((enum gn_technique)t, step);
+            char name[80];
+            if (written[key.moments] >> step & 1) continue;
+            if (!gn_filter_steps[step].reads_map) written[key.moments] |= UINT64_C(1) << step;
+            snprintf(name, sizeof name, "%s-%s", gn_techniques[t].name, gn_filter_steps[step].name);
+            for (char *c = name; *c; c++)
+                if (*c == ' ') *c = '-';
+            if (!write(folder, name, &key, err)) return false;
+        }
+    }
+    return true;
+}
+
+/* What a model by itself is drawn with, without and with its occlusion. */
+static bool write_occluded(const char *folder, struct gn_err *err) {
+    static const struct {
+        const char *name;
+        uint64_t features;
+    } looks[] = {
+        {"own-diffuse",
+         GN_FEATURE(BASE_TEXTURE) | GN_FEATURE(ENVIRONMENT_DIFFUSE) | GN_FEATURE(TONE_NEUTRAL)},
+        {"own-look", LOOK},
+        {"own-metal", LOOK_METAL | GN_FEATURE(ENVIRONMENT_KEY)},
+        {"own-helmet", LOOK_METAL | GN_FEATURE(ENVIRONMENT_KEY) | GN_FEATURE(NORMAL_TEXTURE) |
+                           GN_FEATURE(OCCLUSION_TEXTURE)},
+        {"own-coat", LOOK_METAL | GN_FEATURE(ENVIRONMENT_KEY) | GN_FEATURE(COAT)},
+    };
+    for (size_t i = 0; i < 2 * (sizeof looks / sizeof looks[0]); i++) {
+        char name[80];
+        const struct gn_program_key key =
+            lit(looks[i / 2].features | (i % 2 ? GN_FEATURE(OCCLUDED) : 0), GN_LIGHT_DIRECTIONAL,
+                "cone", "rg16f");
+        snprintf(name, sizeof name, "%s%s", looks[i / 2].name, i % 2 ? "-occluded" : "");
+        if (!write(folder, name, &key, err)) return false;
+    }
+    return true;
+}
+
+/* Those that no loop over a table makes. */
+static bool write_rest(const char *folder, struct gn_err *err) {
     const struct {
         const char *name;
         struct gn_program_key key;
@@ -235,34 +288,28 @@ int main(int argc, char **argv) {
         {"map-r16f", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_R16F)},
         {"map-r16f-spot", caster(GN_PROGRAM_DISTANCE, GN_FEATURE(PERSPECTIVE), GN_ENCODING_R16F)},
         {"map-rgba8", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_RGBA8)},
-        {"vsm-blur-x", filter(GN_TECHNIQUE_VSM, GN_STEP_BLUR_X)},
-        {"vsm-blur-y", filter(GN_TECHNIQUE_VSM, GN_STEP_BLUR_Y)},
-        {"evsm-blur-x", filter(GN_TECHNIQUE_EVSM, GN_STEP_BLUR_X)},
-        {"evsm-blur-y", filter(GN_TECHNIQUE_EVSM, GN_STEP_BLUR_Y)},
-        {"msm-blur-x", filter(GN_TECHNIQUE_MSM, GN_STEP_BLUR_X)},
-        {"msm-blur-y", filter(GN_TECHNIQUE_MSM, GN_STEP_BLUR_Y)},
-        {"vssm-rows", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ROWS)},
-        {"smsm-rows", filter(GN_TECHNIQUE_SMSM, GN_STEP_TABLE_ROWS)},
-        {"vssm-row-sums", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ROW_SUMS)},
-        {"vssm-columns", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMNS)},
-        {"vssm-column-sums", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_COLUMN_SUMS)},
-        {"vssm-add", filter(GN_TECHNIQUE_VSSM, GN_STEP_TABLE_ADD)},
         {"cone-8", with_rings(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"), 2)},
         {"cone-16", with_rings(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"), 4)},
         {"cone-cascades", with_cascades(lit(FULL, GN_LIGHT_DIRECTIONAL, "cone", "rg16f"))},
-        {"cone-seeds", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_SEEDS)},
-        {"cone-edges", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_EDGES)},
-        {"cone-flood", filter(GN_TECHNIQUE_CONE, GN_STEP_CONE_FLOOD)},
         {"map-mask", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MASK)},
+        {"map-mean", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MEAN)},
+        {"floor-alpha", floor_alpha()},
+        {"floor", caster(GN_PROGRAM_FLOOR, 0, GN_ENCODING_DEPTH)},
     };
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
+        if (!write(folder, programs[i].name, &programs[i].key, err)) return false;
+    return true;
+}
+
+int main(int argc, char **argv) {
     struct gn_err err = {0};
     if (argc != 2) {
         fprintf(stderr, "usage: tool_shaders DIR\n");
         return 2;
     }
-    bool ok = write_all(argv[1], &err);
-    for (size_t i = 0; ok && i < sizeof programs / sizeof *programs; i++)
-        ok = write(argv[1], programs[i].name, &programs[i].key, &err);
-    if (!ok) fprintf(stderr, "tool_shaders: %s\n", err.text);
-    return ok ? 0 : 1;
+    if (write_all(argv[1], &err) && write_filters(argv[1], &err) && write_occluded(argv[1], &err) &&
+        write_rest(argv[1], &err))
+        return 0;
+    fprintf(stderr, "tool_shaders: %s\n", err.text);
+    return 1;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "image/shot.h"
+#include "image/soft.h"
 #include "image/table.h"
 #include "shadow/technique.h"
 
@@ -21,12 +22,14 @@ static const char usage[] =
     "  --map LIST          of sizes in pixels (1024,256)\n"
     "  --save DIR          shot, truth and diff of every cell, as PNG\n"
     "  --no-contact        leave out the gaps at contacts\n"
+    "  --no-soft           leave out how torn soft shadows look\n"
+    "  --only-soft         that alone\n"
     "  --csv FILE          write the figures as CSV, too\n"
     "  --limits            exit 1 if a limit is passed\n";
 
 struct arguments {
     char *scenes, *techniques, *formats, *maps, *save, *csv;
-    bool contact, limits;
+    bool contact, limits, soft, hard;
 };
 
 static int refuse(const char *what) {
@@ -47,6 +50,10 @@ static bool parse(int argc, char **argv, struct arguments *a) {
             a->limits = true;
         else if (!strcmp(argv[i], "--no-contact"))
             a->contact = false;
+        else if (!strcmp(argv[i], "--no-soft"))
+            a->soft = false;
+        else if (!strcmp(argv[i], "--only-soft"))
+            a->hard = a->contact = false;
         else
             known = false;
         for (size_t k = 0; !known && k < sizeof valued / sizeof *valued; k++)
@@ -166,9 +173,22 @@ static int measure(struct gn_table *table, const struct arguments *a, const char
     return a->limits ? over : failures;
 }
 
+/* Those asked for, else all that are soft. Returns how many pictures failed. */
+static int print_soft(const struct arguments *a, FILE *csv) {
+    const char *techniques[GN_TECHNIQUE_COUNT];
+    char list[200];
+    snprintf(list, sizeof list, "%s", a->techniques ? a->techniques : "");
+    int count = split(list, techniques, GN_TECHNIQUE_COUNT);
+    for (int t = 0; t < GN_TECHNIQUE_COUNT && !a->techniques; t++)
+        if (gn_techniques[t].soft) techniques[count++] = gn_techniques[t].name;
+    const int failures = gn_soft_table(techniques, count, 480, 360, stdout, csv);
+    printf("\n");
+    return failures;
+}
+
 int main(int argc, char **argv) {
     static struct gn_table table;
-    struct arguments a = {.contact = true};
+    struct arguments a = {.contact = true, .soft = true, .hard = true};
     struct gn_err err = {{0}, GN_EXIT_RUNTIME};
     if (!parse(argc, argv, &a)) return refuse("wrong options");
     if (!fill(&table, &a, NULL))
@@ -183,7 +203,9 @@ int main(int argc, char **argv) {
         fprintf(stderr, "tool_truth: %s: cannot be written\n", a.csv);
         return 1;
     }
-    int over = measure(&table, &a, folder, csv);
+    int over = a.hard ? measure(&table, &a, folder, csv) : 0;
+    if (!a.hard && csv) gn_table_print_csv(&table, true, csv); /* the line of names */
+    if (a.soft) over += print_soft(&a, csv);
     if (csv && fclose(csv) != 0) over++;
     int contact = a.contact ? contacts(&table, &err) : 0;
     if (contact < 0) fprintf(stderr, "tool_truth: %s\n", err.text);

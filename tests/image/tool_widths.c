@@ -9,10 +9,22 @@
 #include <string.h>
 
 #include "image/shot.h"
+#include "shadow/technique.h"
 #include "unit/gltf_maker.h"
 
-static const char *const techniques[] = {"none", "pcss", "vssm", "smsm"};
-enum { TECHNIQUES = sizeof techniques / sizeof *techniques, HEIGHT_M = 3 };
+enum { HEIGHT_M = 3, TECHNIQUES = GN_TECHNIQUE_COUNT };
+static const char *techniques[TECHNIQUES]; /* none, and those with penumbrae */
+static int technique_count;
+static char list[40 * TECHNIQUES];
+
+static void list_techniques(void) {
+    for (int t = 0; t < GN_TECHNIQUE_COUNT; t++) {
+        if (t != GN_TECHNIQUE_NONE && !gn_techniques[t].soft) continue;
+        techniques[technique_count++] = gn_techniques[t].name;
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? "," : "",
+                 gn_techniques[t].name);
+    }
+}
 
 static void quit(const char *what) {
     fprintf(stderr, "tool_widths: %s\n", what);
@@ -73,23 +85,14 @@ static double texel_of(const char *scene) {
 }
 
 static void measure(const char *scene, int count, char **options, double ms[TECHNIQUES]) {
-    const char *argv[40] = {gn_shot_program(),
-                            "bench",
-                            scene,
-                            "--shadow",
-                            "none,pcss,vssm,smsm",
-                            "--backend",
-                            "egl",
-                            "--size",
-                            "320x180",
-                            "--frames",
-                            "10",
-                            "--json"};
+    const char *argv[40] = {
+        gn_shot_program(), "bench",   scene,      "--shadow", list,    "--backend", "egl",
+        "--size",          "320x180", "--frames", "10",       "--json"};
     int n = 12;
     for (int i = 0; i < count && n < 39; i++) argv[n++] = options[i];
     json_t *report = json_loads(ask(argv), 0, NULL), *run;
     size_t i;
-    json_array_foreach(json_object_get(report, "runs"), i, run) for (int t = 0; t < TECHNIQUES;
+    json_array_foreach(json_object_get(report, "runs"), i, run) for (int t = 0; t < technique_count;
                                                                      t++) {
         const char *name = json_string_value(json_object_get(run, "technique"));
         if (name && strcmp(name, techniques[t]) == 0)
@@ -115,19 +118,22 @@ int main(int argc, char **argv) {
     enum { WIDTHS = 6, ROUNDS = 10 };
     double ms[WIDTHS][TECHNIQUES], texels[WIDTHS], most[TECHNIQUES] = {0}, least[TECHNIQUES];
     char scenes[WIDTHS][600];
+    list_techniques();
     for (int w = 0; w < WIDTHS; w++) {
         snprintf(scenes[w], sizeof scenes[w], "%s/widths%d.glb", gn_shot_build(), w);
         texels[w] = make_scene(scenes[w], 2 << w);
-        for (int t = 0; t < TECHNIQUES; t++) ms[w][t] = least[t] = INFINITY;
+        for (int t = 0; t < technique_count; t++) ms[w][t] = least[t] = INFINITY;
     }
     for (int i = 0; i < ROUNDS * WIDTHS; i++)
         measure(scenes[i % WIDTHS], argc - 1, argv + 1, ms[i % WIDTHS]);
     printf("radius of the penumbra, and CPU ms of a frame less those without shadows: the least of "
-           "%d rounds\n%8s %8s %8s %8s\n",
-           ROUNDS, "texels", techniques[1], techniques[2], techniques[3]);
+           "%d rounds\n%8s",
+           ROUNDS, "texels");
+    for (int t = 1; t < technique_count; t++) printf(" %8s", techniques[t]);
+    printf("\n");
     for (int w = 0; w < WIDTHS; w++) {
         printf("%8.1f", texels[w]);
-        for (int t = 1; t < TECHNIQUES; t++) {
+        for (int t = 1; t < technique_count; t++) {
             const double own = ms[w][t] - ms[w][0];
             most[t] = fmax(most[t], own);
             least[t] = fmin(least[t], own);
@@ -136,7 +142,7 @@ int main(int argc, char **argv) {
         printf("\n");
     }
     printf("%8s", "most");
-    for (int t = 1; t < TECHNIQUES; t++) printf(" %7.0f%%", 100 * (most[t] / least[t] - 1));
+    for (int t = 1; t < technique_count; t++) printf(" %7.0f%%", 100 * (most[t] / least[t] - 1));
     printf("\n");
     return 0;
 }

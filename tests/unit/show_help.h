@@ -8,10 +8,10 @@
  * last, which shows its first scene; no configuration of the user's is read. Fails the test, or
  * skips it where EGL is not there. */
 struct gn_show *help_show(const char *const more[]);
-/* The same, perhaps before its first scene is there, as on a slow machine any kiosk begins. */
-struct gn_show *help_show_begun(const char *const more[]);
 /* The same of 64x64 pixels, with that text as its configuration and these arguments. */
 struct gn_show *help_show_of(const char *config, const char *const more[]);
+/* As help_show(), but perhaps before the first scene is there, as any kiosk on a slow machine. */
+struct gn_show *help_show_begun(const char *const more[]);
 void help_show_step(struct gn_show *show);
 
 #endif

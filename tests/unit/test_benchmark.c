@@ -49,6 +49,8 @@ static void test_the_truth_itself_has_no_error(void **state) {
     for (int k = 0; k < GN_BENCHMARK_CLASS_COUNT; k++) {
         float *truth = make_plain(k);
         truth[0] = truth[300] = 0;
+        for (size_t i = 0; gn_benchmark_classes[k].soft && i < 20000; i++)
+            truth[3 * i] = (float)i / 20000;
         const struct gn_benchmark_score s = score_of(k, truth, truth, 3);
         for (int m = 0; m < GN_BENCHMARK_MEASURE_COUNT; m++)
             assert_true(isnan(s.of[m]) ==
@@ -98,6 +100,24 @@ static void test_errors_of_a_known_penumbra(void **state) {
     assert_float_equal(s.of[GN_BENCHMARK_PENUMBRA], sqrt(1.25 / 25), 1e-12);
     assert_float_equal(s.of[GN_BENCHMARK_BIAS], -.5 / 25, 1e-12);
     assert_float_equal(s.of[GN_BENCHMARK_REST], sqrt(1 / (pixels - 25)), 1e-12);
+    free(truth);
+    free(shot);
+}
+
+/* A grey picture in which pixels differ: what truth/tear.h measures of the first channel. */
+static void test_grain_of_a_known_penumbra(void **state) {
+    (void)state;
+    float *truth = make_plain(GN_BENCHMARK_SOFT), *shot = make_plain(GN_BENCHMARK_SOFT);
+    uint32_t seed = 1;
+    for (size_t i = 0; i < gn_benchmark_pixels(GN_BENCHMARK_SOFT); i++) {
+        seed = seed * 1664525 + 1013904223;
+        truth[3 * i] = .5f;
+        shot[3 * i] = .3f + .4f * (float)(seed >> 8) / (1 << 24);
+    }
+    const struct gn_benchmark_score s = score_of(GN_BENCHMARK_SOFT, truth, shot, 3);
+    /* unit/test_tear.c has the formula: of white noise of deviation .4 / sqrt 12 */
+    assert_float_equal(s.of[GN_BENCHMARK_PIXEL_GRAIN], 2.295, .06);
+    assert_float_equal(s.of[GN_BENCHMARK_TEAR], .445, .03);
     free(truth);
     free(shot);
 }
@@ -178,6 +198,7 @@ int main(void) {
         cmocka_unit_test(test_the_truth_itself_has_no_error),
         cmocka_unit_test(test_faults_of_a_known_picture),
         cmocka_unit_test(test_errors_of_a_known_penumbra),
+        cmocka_unit_test(test_grain_of_a_known_penumbra),
         cmocka_unit_test(test_means_leave_out_what_is_not_measured),
         cmocka_unit_test(test_the_picture_of_a_truth_scores_as_the_scene_does),
     };

@@ -103,6 +103,23 @@ static void a_mode_that_is_named_again_begins_its_clips(void **state) {
     assert_int_equal(gn_kiosk_view(&r, &s, 3611 * S).clips_begun_ns, 0);
 }
 
+/* A scene that offers its clip alone: each press plays it from its start. */
+static void the_only_mode_may_be_entered_again(void **state) {
+    (void)state;
+    struct gn_kiosk_rules r = {.mode_count = 1, .restarts = 1, .caption_ns = S};
+    for (int replays = 0; replays <= 1; replays++)
+        for (int action = GN_ACTION_NEXT; action <= GN_ACTION_PREV; action++) {
+            struct gn_kiosk s = on(&r, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 10 * S);
+            r.replays = replays;
+            s = on(&r, s, GN_KIOSK_FRAME, 12 * S);
+            s = act(&r, s, 15 * S, (enum gn_action_kind)action);
+            const struct gn_kiosk_view view = gn_kiosk_view(&r, &s, 16 * S);
+            assert_int_equal(view.time_ns, 6 * S);
+            assert_int_equal(view.clips_begun_ns, replays ? 5 * S : 0);
+            assert_int_equal(gn_kiosk_view(&r, &s, 15 * S).caption, GN_KIOSK_CAPTION_MODE);
+        }
+}
+
 static void another_mode_ends_a_clip_and_a_pause_holds_it(void **state) {
     (void)state;
     struct gn_kiosk s = on(&three, (struct gn_kiosk){0}, GN_KIOSK_FRAME, 10 * S);
@@ -155,6 +172,7 @@ int main(void) {
         cmocka_unit_test(a_press_begins_the_clip_anew_or_is_ignored),
         cmocka_unit_test(a_mode_may_begin_its_clips_anew),
         cmocka_unit_test(a_mode_that_is_named_again_begins_its_clips),
+        cmocka_unit_test(the_only_mode_may_be_entered_again),
         cmocka_unit_test(another_mode_ends_a_clip_and_a_pause_holds_it),
         cmocka_unit_test(a_clip_goes_on_in_the_mode_that_was_wanted_before),
         cmocka_unit_test(the_idle_timeout_begins_at_the_end_of_a_clip),

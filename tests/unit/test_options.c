@@ -126,7 +126,8 @@ static void a_wrong_value_names_option_value_and_range(void **state) {
     assert_wrong("render --shadow-strength nan", "nan");
     assert_wrong("render --exposure inf", "auto or a number");
     assert_wrong("render --time -1", "--time");
-    assert_wrong("render --aov colour", "one of color, visibility, distance, normal, map");
+    assert_wrong("render --aov colour",
+                 "one of color, visibility, distance, normal, occlusion, map");
     assert_wrong("render --msaa 3", "one of auto, 0, 2, 4");
     assert_wrong("render --background #12345", "not #rrggbb or one of auto, transparent, sky");
     assert_wrong("render --background #1234567", "#rrggbb");

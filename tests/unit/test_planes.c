@@ -16,11 +16,14 @@ static float random_between(float a, float b) {
     return a + (b - a) * (float)(seed >> 8) / 16777216.0f;
 }
 
-/* Turned cubes of all sizes about the origin, over a floor; a camera in node 0. */
-static struct gn_scene *load_cubes(const char *camera) {
+/* Turned cubes of all sizes about the origin, over a floor of the file or an unseen one; a camera
+ * in node 0. */
+static struct gn_scene *load_cubes(const char *camera, bool unseen) {
+    const struct gn_scene_limits limits = {.floor.kind = unseen ? GN_FLOOR_AUTO : GN_FLOOR_NONE};
     struct gn_maker maker;
     struct gn_err err = {0};
-    char text[300], roots[200] = "[{'nodes':[0,1";
+    char text[300], roots[200];
+    snprintf(roots, sizeof roots, "[{'nodes':[0%s", unseen ? "" : ",1");
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_cube(&maker);
@@ -38,8 +41,12 @@ static struct gn_scene *load_cubes(const char *camera) {
     }
     strcat(roots, "]}]");
     gn_maker_set(&maker, "scenes", roots);
-    struct gn_scene *scene = gn_maker_load(&maker, NULL, &err);
+    struct gn_made glb = gn_maker_glb(&maker);
+    struct gn_scene *scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, NULL, &err);
+    free(glb.data);
+    gn_maker_finish(&maker);
     if (!scene) fail_msg("%s", err.text);
+    assert_true(scene->added.floor == unseen);
     return scene;
 }
 
@@ -88,12 +95,12 @@ static void place_camera(struct gn_scene *scene, float distance_m) {
     glm_quat_mul(a, b, node->rotation);
 }
 
-static void check_cameras(const char *camera, float least_gain) {
+static void check_cameras(const char *camera, bool unseen, float least_gain) {
     const struct gn_frame_view_opts view = {0};
     const float aspect = 1.6f;
     int raised = 0, seen = 0;
     seed = 7;
-    struct gn_scene *scene = load_cubes(camera);
+    struct gn_scene *scene = load_cubes(camera, unseen);
     const float file_near_m = scene->cameras[0].near_m;
     for (int i = 0; i < CAMERAS; i++) {
         struct gn_pose pose;
@@ -123,22 +130,33 @@ static void check_cameras(const char *camera, float least_gain) {
 
 static void test_a_near_plane_cuts_no_surface_in_view(void **state) {
     (void)state;
-    check_cameras("{'type':'perspective','perspective':{'yfov':1,'znear':0.000001}}", 1e4f);
+    check_cameras("{'type':'perspective','perspective':{'yfov':1,'znear':0.000001}}", false, 1e4f);
     check_cameras("{'type':'perspective','perspective':{'yfov':0.3,'znear':1e-12,'zfar':100}}",
-                  1e6f);
+                  false, 1e6f);
 }
 
 static void test_an_orthographic_range_holds_what_is_in_view(void **state) {
     (void)state;
     check_cameras(
-        "{'type':'orthographic','orthographic':{'xmag':2,'ymag':2,'znear':0,'zfar':50000}}", 4);
+        "{'type':'orthographic','orthographic':{'xmag':2,'ymag':2,'znear':0,'zfar':50000}}", false,
+        4);
+}
+
+/* However near the file's far plane, if it has the model in its range. */
+static void test_an_unseen_floor_is_not_cut(void **state) {
+    (void)state;
+    check_cameras("{'type':'perspective','perspective':{'yfov':1,'znear':0.000001}}", true, 1e4f);
+    check_cameras("{'type':'perspective','perspective':{'yfov':1,'znear':0.000001,'zfar':80}}",
+                  true, 1e4f);
+    check_cameras("{'type':'orthographic','orthographic':{'xmag':9,'ymag':9,'znear':0,'zfar':80}}",
+                  true, 16);
 }
 
 static void test_without_a_surface_in_view_planes_stay(void **state) {
     (void)state;
     seed = 7;
-    struct gn_scene *scene =
-        load_cubes("{'type':'perspective','perspective':{'yfov':1,'znear':0.001,'zfar':50}}");
+    struct gn_scene *scene = load_cubes(
+        "{'type':'perspective','perspective':{'yfov':1,'znear':0.001,'zfar':50}}", false);
     const struct gn_frame_view_opts view = {0};
     struct gn_pose pose;
     struct gn_framing at;
@@ -155,6 +173,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_near_plane_cuts_no_surface_in_view),
         cmocka_unit_test(test_an_orthographic_range_holds_what_is_in_view),
+        cmocka_unit_test(test_an_unseen_floor_is_not_cut),
         cmocka_unit_test(test_without_a_surface_in_view_planes_stay),
     };
     return RUN(tests);

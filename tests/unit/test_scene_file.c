@@ -412,7 +412,7 @@ static void test_limits(void **state) {
     assert_string_equal(
         err.text, "unknown limit 'verts'; limits are: file_mb memory_mb nodes instances vertices "
                   "texels keys json_depth seconds gpu_mb maps_mb triangles_per_frame "
-                  "decoded_mb ahead_percent");
+                  "overdraw decoded_mb ahead_percent");
     struct gn_made made = square_glb();
     assert_null(gn_scene_load_bytes("t", made.data, made.size, &limits, NULL, &err));
     assert_string_equal(err.text, "t: meshes: 6 vertices are more than the limit vertices=3");

@@ -1,22 +1,49 @@
 /* The unseen floor that the loader adds: when, where, and what of the sky it sees, against rays. */
 #include <math.h>
+#include <string.h>
 
 #include "scene/pose.h"
 #include "unit/check.h"
 #include "unit/gltf_maker.h"
 
-/* A cube of side 2 that stands on y = 0, and more. */
-static struct gn_scene *load(const char *more, enum gn_floor kind, float height_m) {
+/* Mesh 0 is a square, mesh 1 a cube of side 2 about its middle, meshes 2 and 3 a cube
+ * and a square that faces down, of both sides, mesh 4 a cube that faces inwards. places: from where
+ * to where node 0 goes in a second; NULL: nowhere. */
+static struct gn_scene *load_moving(const char *nodes, const char *scenes, enum gn_floor kind,
+                                    float height_m, const float (*places)[3]) {
     struct gn_maker maker;
     struct gn_err err = {0};
-    char nodes[300], scenes[60];
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_cube(&maker);
-    snprintf(nodes, sizeof nodes, "[{'mesh':1,'translation':[0,1,0]}%s]", more);
-    snprintf(scenes, sizeof scenes, "[{'nodes':[0%s]}]", more[0] ? ",1" : "");
+    gn_maker_add(&maker, "meshes",
+                 "{'primitives':[{'attributes':{'POSITION':2},'indices':3,'material':0}]}");
+    const int down = gn_maker_accessor(&maker, "SCALAR", 5123, 6,
+                                       (const uint16_t[]){0, 2, 1, 0, 3, 2}, 12, NULL);
+    char mesh[100];
+    snprintf(mesh, sizeof mesh,
+             "{'primitives':[{'attributes':{'POSITION':0},'indices':%d,'material':0}]}", down);
+    gn_maker_add(&maker, "meshes", mesh);
+    uint16_t inwards[36];
+    for (int i = 0; i < 36; i++)
+        inwards[i] = (uint16_t)(i / 6 * 4 + (const int[]){0, 2, 1, 0, 3, 2}[i % 6]);
+    snprintf(mesh, sizeof mesh, "{'primitives':[{'attributes':{'POSITION':2},'indices':%d}]}",
+             gn_maker_accessor(&maker, "SCALAR", 5123, 36, inwards, sizeof inwards, NULL));
+    gn_maker_add(&maker, "meshes", mesh);
+    gn_maker_set(&maker, "materials", "[{'doubleSided':true}]");
+    gn_maker_set(&maker, "cameras", "[{'type':'perspective','perspective':{'yfov':1,'znear':1}}]");
     gn_maker_set(&maker, "nodes", nodes);
     gn_maker_set(&maker, "scenes", scenes);
+    if (places) {
+        char clip[200];
+        const int in = gn_maker_accessor(&maker, "SCALAR", 5126, 2, (const float[]){0, 1}, 8,
+                                         "'min':[0],'max':[1]");
+        snprintf(clip, sizeof clip,
+                 "{'samplers':[{'input':%d,'output':%d}],"
+                 "'channels':[{'sampler':0,'target':{'node':0,'path':'translation'}}]}",
+                 in, gn_maker_accessor(&maker, "VEC3", 5126, 2, places, 24, NULL));
+        gn_maker_add(&maker, "animations", clip);
+    }
     const struct gn_scene_limits limits = {.floor = {.kind = kind, .height_m = height_m}};
     struct gn_made glb = gn_maker_glb(&maker);
     struct gn_scene *scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, NULL, &err);
@@ -24,6 +51,18 @@ static struct gn_scene *load(const char *more, enum gn_floor kind, float height_
     free(glb.data);
     gn_maker_finish(&maker);
     return scene;
+}
+
+static struct gn_scene *load_nodes(const char *nodes, const char *scenes, enum gn_floor kind,
+                                   float height_m) {
+    return load_moving(nodes, scenes, kind, height_m, NULL);
+}
+
+/* A cube of side 2 that stands on y = 0, and more. */
+static struct gn_scene *load(const char *more, enum gn_floor kind, float height_m) {
+    char nodes[300];
+    snprintf(nodes, sizeof nodes, "[{'mesh':1,'translation':[0,1,0]}%s]", more);
+    return load_nodes(nodes, more[0] ? "[{'nodes':[0,1]}]" : "[{'nodes':[0]}]", kind, height_m);
 }
 
 static const struct gn_item *find_floor(const struct gn_scene *scene) {
@@ -69,6 +108,34 @@ static void test_a_ground_is_a_floor(void **state) {
     }
 }
 
+/* The underside of a body of both sides is no floor, but a ground that faces down is, and what lies
+ * under a roof. */
+static void test_what_lies_under_the_model_is_no_floor(void **state) {
+    (void)state;
+    static const struct {
+        const char *nodes, *list;
+        bool adds;
+    } cases[] = {
+        {"[{'mesh':2,'translation':[0,1,0]}]", "[{'nodes':[0]}]", true},
+        {"[{'mesh':0,'scale':[3,1,3]},{'mesh':0,'translation':[0,2,0],'scale':[3,1,3]}]",
+         "[{'nodes':[0,1]}]", false},
+        {"[{'mesh':2,'scale':[3,0.01,3]},{'mesh':2,'translation':[0,1,0]}]", "[{'nodes':[0,1]}]",
+         false},
+        {"[{'mesh':3,'scale':[3,1,3]},{'mesh':2,'translation':[0,1,0]}]", "[{'nodes':[0,1]}]",
+         false},
+        {"[{'mesh':3,'scale':[0.9,1,0.9]},{'mesh':2,'translation':[0,1.1,0]}]", "[{'nodes':[0,1]}]",
+         true},
+        {"[{'mesh':3,'scale':[0.9,1,0.9]},{'mesh':2,'translation':[0,2,0]}]", "[{'nodes':[0,1]}]",
+         true},
+        {"[{'mesh':4,'translation':[0,1,0]}]", "[{'nodes':[0]}]", true}, /* it faces inwards */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct gn_scene *scene = load_nodes(cases[i].nodes, cases[i].list, GN_FLOOR_AUTO, 0);
+        if ((find_floor(scene) != NULL) != cases[i].adds) fail_msg("case %zu", i);
+        gn_scene_destroy(scene);
+    }
+}
+
 static void test_its_height_can_be_given(void **state) {
     (void)state;
     struct gn_scene *scene = load(",{'mesh':0,'scale':[3,1,3]}", GN_FLOOR_HEIGHT, -.5f);
@@ -76,66 +143,152 @@ static void test_its_height_can_be_given(void **state) {
     gn_scene_destroy(scene);
 }
 
-/* Whether a ray from the floor meets the cube [-1, 1] x [0, 2] x [-1, 1]. */
-static bool meets_cube(const double from[3], const double along[3]) {
-    static const double least[3] = {-1, 0, -1}, most[3] = {1, 2, 1};
+/* ---- what of the sky it sees ---- */
+
+enum { BOXES_MAX = 3 };
+struct box {
+    double least[3], most[3];
+};
+/* Models of boxes that stand on y = 0, or over it; limits on the mean and the largest error, and
+ * on that along circles about the middle, where a model is round enough. */
+static const struct model {
+    const char *name;
+    int count;
+    struct box boxes[BOXES_MAX];
+    double mean, most, ring;
+    double goes[3]; /* of the first box, in a second */
+    bool leaves;    /* so far that it has no occlusion */
+} models[] = {
+    {"cube", 1, {{{-1, 0, -1}, {1, 2, 1}}}, .008, .10, .01, {0}, false},
+    {"post", 1, {{{-.04, 0, -.04}, {.04, 2, .04}}}, .010, .08, .05, {0}, false},
+    {"wall", 1, {{{-1, 0, -.01}, {1, 1, .01}}}, .010, .05, .03, {0}, false},
+    {"board", 1, {{{-.7, .6, -.7}, {.7, .65, .7}}}, .014, .04, .01, {0}, false},
+    {"table",
+     3,
+     {{{-1, .95, -.6}, {1, 1, .6}},
+      {{-.9, 0, -.03}, {-.85, 1, .03}},
+      {{.85, 0, -.03}, {.9, 1, .03}}},
+     .024,
+     .13,
+     .05,
+     {0},
+     false},
+    {"board that rises", 1, {{{-.7, .3, -.7}, {.7, .35, .7}}}, .009, .03, .01, .goes = {0, 2, 0}},
+    {"board that sways", 1, {{{-.7, .3, -.7}, {.7, .35, .7}}}, .009, .03, .02, .goes = {.4, 0, .2}},
+    {"board that leaves",
+     1,
+     {{{-.7, .3, -.7}, {.7, .35, .7}}},
+     .001,
+     .01,
+     .01,
+     .goes = {0, 0, 3},
+     .leaves = true},
+};
+
+static struct gn_scene *load_model(const struct model *model) {
+    char nodes[600] = "", list[40] = "";
+    for (int i = 0; i < model->count; i++) {
+        const struct box *b = &model->boxes[i];
+        const size_t at = strlen(nodes), end = strlen(list);
+        snprintf(nodes + at, sizeof nodes - at,
+                 "%s{'mesh':1,'translation':[%g,%g,%g],'scale':[%g,%g,%g]}", i ? "," : "[",
+                 (b->least[0] + b->most[0]) / 2, (b->least[1] + b->most[1]) / 2,
+                 (b->least[2] + b->most[2]) / 2, (b->most[0] - b->least[0]) / 2,
+                 (b->most[1] - b->least[1]) / 2, (b->most[2] - b->least[2]) / 2);
+        snprintf(list + end, sizeof list - end, "%s%d", i ? "," : "[{'nodes':[", i);
+    }
+    const struct box *b = &model->boxes[0];
+    float places[2][3];
+    bool goes = false;
+    for (int k = 0; k < 3; k++) {
+        places[0][k] = (float)((b->least[k] + b->most[k]) / 2);
+        places[1][k] = places[0][k] + (float)model->goes[k];
+        goes |= model->goes[k] != 0;
+    }
+    return load_moving(strcat(nodes, "]"), strcat(list, "]}]"), GN_FLOOR_HEIGHT, 0,
+                       goes ? places : NULL);
+}
+
+static bool meets_box(const struct box *box, const double from[3], const double along[3]) {
     double enters = 0, leaves = 1e9;
     for (int k = 0; k < 3; k++) {
-        const double a = (least[k] - from[k]) / along[k], b = (most[k] - from[k]) / along[k];
+        const double a = (box->least[k] - from[k]) / along[k],
+                     b = (box->most[k] - from[k]) / along[k];
         enters = fmax(enters, fmin(a, b));
         leaves = fmin(leaves, fmax(a, b));
     }
     return enters < leaves;
 }
 
-static double sky_by_rays(double x, double z) {
-    enum { TURNS = 90, RINGS = 45 };
+static double sky_at(const struct model *model, const double from[3]) {
+    enum { TURNS = 180, RINGS = 30 };
     int seen = 0;
     for (int t = 0; t < TURNS; t++)
         for (int r = 0; r < RINGS; r++) { /* equal shares, weighted by the cosine */
             const double aside = sqrt((r + .5) / RINGS), turn = (t + .37) * 2 * acos(-1) / TURNS;
-            seen += !meets_cube(
-                (double[3]){x, 1e-6, z},
-                (double[3]){aside * cos(turn), sqrt(1 - aside * aside), aside * sin(turn)});
+            const double along[3] = {aside * cos(turn), sqrt(1 - aside * aside), aside * sin(turn)};
+            bool met = false;
+            for (int i = 0; i < model->count; i++) met |= meets_box(&model->boxes[i], from, along);
+            seen += !met;
         }
     return seen / (double)(TURNS * RINGS);
 }
 
-static void test_it_sees_as_much_of_the_sky_as_rays_do(void **state) {
-    (void)state;
-    struct gn_scene *scene = load("", GN_FLOOR_AUTO, 0);
+/* On average over four poses, if it moves. */
+static double sky_by_rays(const struct model *model, double x, double z) {
+    double sum = 0;
+    if (model->leaves) return 1;
+    if (!model->goes[0] && !model->goes[1]) return sky_at(model, (double[3]){x, 1e-6, z});
+    for (int p = 0; p < 4; p++) /* it goes one way as the floor goes the other */
+        sum +=
+            sky_at(model, (double[3]){x - p / 4.0 * model->goes[0], 1e-6 - p / 4.0 * model->goes[1],
+                                      z - p / 4.0 * model->goes[2]});
+    return sum / 4;
+}
+
+/* How far it is from what rays see, at each texel that does not fade out. */
+static void compare_sky(const struct model *model) {
+    struct gn_scene *scene = load_model(model);
     const struct gn_item *floor = find_floor(scene);
     const int32_t texture =
         scene->materials[floor->material].textures[GN_TEXTURE_OCCLUSION].texture;
     const struct gn_image *image = &scene->pictures.images[scene->pictures.textures[texture].image];
     const double side = (double)(scene->nodes[floor->node].scale[0] * GN_FLOOR_OCCLUDED);
+    const float *middle = scene->nodes[floor->node].translation;
     const double texel = side / image->width_px;
-    double most = 0, sum = 0;
+    double most = 0, sum = 0, ring[2] = {1, -1};
     int count = 0;
     for (uint32_t z = 0; z < image->height_px; z++)
         for (uint32_t x = 0; x < image->width_px; x++) {
             const double px = (x + .5) * texel - side / 2, pz = (z + .5) * texel - side / 2;
-            const double aside = fmax(fabs(px), fabs(pz));
-            if (aside > side * .28) continue; /* where it fades out */
+            if (fmax(fabs(px), fabs(pz)) > side * .28) continue; /* where it fades out */
             const double sky = image->rgba[4 * (z * image->width_px + x)] / 255.0;
-            if (aside < 1 - 2 * texel) assert_float_equal(sky, 0, .02); /* under the cube */
-            if (aside < 1 + 2 * texel) continue;
-            const double wrong = fabs(sky - sky_by_rays(px, pz));
-            most = fmax(most, wrong);
-            sum += wrong;
+            const double right = sky_by_rays(model, px + (double)middle[0], pz + (double)middle[2]);
+            const double wrong = sky - right;
+            const double r = hypot(px, pz) / texel;
+            if (r > 8 && r < 9) ring[0] = fmin(ring[0], wrong), ring[1] = fmax(ring[1], wrong);
+            most = fmax(most, fabs(wrong));
+            sum += fabs(wrong);
             count++;
         }
-    print_message("sky: wrong by %.3f on average, at most %.3f, of %d texels\n", sum / count, most,
-                  count);
+    print_message(
+        "%s: sky wrong by %.4f on average, at most %.3f, on a circle %.3f, of %d texels\n",
+        model->name, sum / count, most, ring[1] - ring[0], count);
     assert_true(count > 200);
-    assert_true(sum / count < .03 && most < .08);
+    assert_true(sum / count < model->mean && most < model->most && ring[1] - ring[0] < model->ring);
     gn_scene_destroy(scene);
+}
+
+static void test_it_sees_as_much_of_the_sky_as_rays_do(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) compare_sky(&models[i]);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_it_is_added_where_there_is_none),
         cmocka_unit_test(test_a_ground_is_a_floor),
+        cmocka_unit_test(test_what_lies_under_the_model_is_no_floor),
         cmocka_unit_test(test_its_height_can_be_given),
         cmocka_unit_test(test_it_sees_as_much_of_the_sky_as_rays_do),
     };

@@ -51,6 +51,16 @@ static void test_while_the_scene_stands_nothing_is_counted(void **state) {
     assert_int_equal(gn_turntable_step(&t, 5 * S, 103 * S, 7 * S), 0); /* paused */
 }
 
+static void test_it_begins_where_it_was_switched_off(void **state) {
+    (void)state;
+    struct gn_turntable t = {0};
+    gn_turntable_step(&t, 5 * S, 100 * S, 10 * S);
+    t.off = true;
+    assert_int_equal(gn_turntable_step(&t, 5 * S, 200 * S, 110 * S), 110 * S);
+    t.off = false;
+    assert_int_equal(gn_turntable_step(&t, 5 * S, 205 * S, 115 * S), 110 * S);
+}
+
 /* However many frames were drawn, it has stood for as long. */
 static void test_it_goes_on_from_where_it_stood_at_any_rate_of_frames(void **state) {
     (void)state;
@@ -76,6 +86,7 @@ int main(void) {
         cmocka_unit_test(test_it_stands_until_the_rest_is_over),
         cmocka_unit_test(test_rest_of_no_time_is_none),
         cmocka_unit_test(test_while_the_scene_stands_nothing_is_counted),
+        cmocka_unit_test(test_it_begins_where_it_was_switched_off),
         cmocka_unit_test(test_it_goes_on_from_where_it_stood_at_any_rate_of_frames),
     };
     return RUN(tests);

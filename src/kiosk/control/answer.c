@@ -33,9 +33,7 @@ static void answer(struct waiting *w, json_t *reply) {
 }
 
 static void refuse(struct waiting *w, const struct gn_err *why) {
-    const struct waiting to = *w;
-    *w = (struct waiting){0};
-    to.from->refuse(to.from->self, to.request, why);
+    answer(w, gn_reply_failure(why));
 }
 
 /* ---- actions ---- */

@@ -7,12 +7,11 @@
 struct gn_show;
 
 /* What brings requests: a part of the kiosk with a row of its own (socket.c). Each request is
- * answered or refused once, perhaps later, and lives until then; both take place between steps of
- * the loop. A reply is a reference that is taken; NULL: there was no memory for it. */
+ * answered once, perhaps later, and lives until then. A reply is a reference that is taken; it has
+ * an "ok" only where that is false (gn_reply_failure()). NULL: there was no memory for it. */
 struct gn_transport {
     void *self;
     void (*answer)(void *self, const struct gn_request *request, json_t *reply);
-    void (*refuse)(void *self, const struct gn_request *request, const struct gn_err *why);
 };
 
 void gn_show_take_request(struct gn_show *show, const struct gn_transport *from,

@@ -370,12 +370,8 @@ void gn_control_answer(struct gn_control *c, const struct gn_request *request, j
         if (c->clients[i] && &c->clients[i]->request == request) client = c->clients[i];
     close_passed(&client->request.fd);
     c->now_ns = c->timer.due_ns = gn_loop_now_ns(c->loop);
+    const char *error = json_string_value(json_object_get(json, "error"));
+    c->counts.busy += error && strcmp(error, "busy") == 0;
     if (json && !json_object_get(json, "ok")) json_object_set_new(json, "ok", json_true());
     send_reply(client, json);
-}
-
-void gn_control_refuse(struct gn_control *c, const struct gn_request *request,
-                       const struct gn_err *err) {
-    if (err->status == GN_EXIT_RUNTIME && strcmp(err->text, "busy") == 0) c->counts.busy++;
-    gn_control_answer(c, request, gn_reply_failure(err));
 }

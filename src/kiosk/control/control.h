@@ -41,7 +41,5 @@ const struct gn_request *gn_control_next(struct gn_control *control);
 /* Takes the reference; "ok": true is added unless it has an "ok". The client may be gone by then.
  */
 void gn_control_answer(struct gn_control *control, const struct gn_request *request, json_t *reply);
-void gn_control_refuse(struct gn_control *control, const struct gn_request *request,
-                       const struct gn_err *err);
 
 #endif

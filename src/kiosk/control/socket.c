@@ -40,11 +40,6 @@ static void answer(void *part, const struct gn_request *request, json_t *reply) 
     gn_control_answer(c->control, request, reply);
 }
 
-static void refuse(void *part, const struct gn_request *request, const struct gn_err *why) {
-    const struct socket_part *c = part;
-    gn_control_refuse(c->control, request, why);
-}
-
 /* Descriptors, the folder or another kiosk's lock may be what is missing, and come. */
 static void open_again(void *part, int64_t now_ns);
 
@@ -55,7 +50,7 @@ static void open_control(void *part) {
     struct gn_err err = {0};
     const char *named = (*h->settings)->kiosk.socket;
     if (!named && (h->display->ops->is_window || !gn_listen_default(path, sizeof path))) return;
-    c->transport = (struct gn_transport){.self = c, .answer = answer, .refuse = refuse};
+    c->transport = (struct gn_transport){.self = c, .answer = answer};
     c->control = gn_control_open(named ? named : path, h->loop, &err);
     if (c->control) {
         if (h->problems->of[GN_PROBLEM_CONTROL][0]) report_opened(h);

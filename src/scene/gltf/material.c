@@ -136,6 +136,16 @@ static void read_glossiness(struct gn_gltf *g, const struct gn_at *at, bool used
     m->base_color[3] = clamp(m->base_color[3], 0, 1);
 }
 
+/* Says where numbers will be clamped. */
+static void check_range(struct gn_gltf *g, const struct gn_at *at, const char *path, const float *x,
+                        uint32_t count, float least, float most) {
+    const struct gn_at place = gn_at_any(at, path);
+    bool outside = false;
+    for (uint32_t k = 0; k < count; k++) outside |= !(x[k] >= least && x[k] <= most * 1.0001f);
+    if (outside && !g->failed)
+        gn_gltf_warn(g, &place, "outside %g to %g; clamped", (double)least, (double)most);
+}
+
 /* The colour of a volume alone, over its thickness at most: where that comes from a texture, and
  * how long the way of the light is, is unknown. Returns the thickness. */
 static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3]) {
@@ -144,6 +154,7 @@ static float read_tint(struct gn_gltf *g, const struct gn_at *at, float tint[3])
     const float thickness = gn_at_float(g, &volume, "thicknessFactor", 0);
     const float distance = gn_at_float(g, &volume, "attenuationDistance", INFINITY);
     gn_at_floats(g, &volume, "attenuationColor", 3, color);
+    check_range(g, &volume, "attenuationColor", color, 3, 0, 1);
     const float way = thickness > 0 && distance > 0 ? clamp(thickness / distance, 0, 1) : 0;
     for (int k = 0; k < 3; k++) tint[k] = powf(clamp(color[k], 0, 1), way);
     return thickness;
@@ -170,6 +181,7 @@ static void read_record(struct gn_gltf *g, const struct gn_at *at, struct gn_mat
             *to = gn_at_float(g, at, p->path, p->fallback);
         else
             gn_at_floats(g, at, p->path, p->components, to);
+        check_range(g, at, p->path, to, p->components, p->least, p->most);
     }
 }
 

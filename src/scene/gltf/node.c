@@ -111,6 +111,9 @@ static void read_transform(struct gn_gltf *g, const struct gn_at *at, struct gn_
     float m[16];
     node->has_matrix = gn_at_floats(g, at, "matrix", 16, m);
     if (node->has_matrix) memcpy(node->matrix, m, sizeof m);
+    if (node->has_matrix && (gn_at_any(at, "translation").json || gn_at_any(at, "rotation").json ||
+                             gn_at_any(at, "scale").json))
+        gn_gltf_warn(g, at, "has a matrix, and translation, rotation or scale: the matrix is used");
     gn_at_floats(g, at, "translation", 3, node->translation);
     gn_at_floats(g, at, "scale", 3, node->scale);
     read_rest(at, node);
