@@ -58,7 +58,7 @@ bool gn_gl_prove(struct gn_gl *gl, const struct gn_plan *plan);
 bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* The same, one step per call, for a plan that is needed later, of the current scene or of a staged
  * one that is whole. The current picture must be drawn again before it is shown again. One program
- * per call, which draws once, to maps of a few texels. Build the plan with all_seen. again: what
+ * per call, or its first draw, to maps of a few texels. Build the plan with all_seen. again: what
  * was dropped is made again; without, the driver's cache on disk is enough. */
 enum gn_gl_warmth {
     GN_GL_WARM_FAILED,  /* err says why */

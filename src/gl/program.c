@@ -262,11 +262,9 @@ bool gn_gl_has_programs(struct gn_gl *gl, const struct gn_plan *plan) {
  * none counts as less than they do on average. */
 void gn_gl_program_took(struct gn_gl *gl, struct gn_gl_program *program, uint64_t bytes) {
     struct gn_gl_programs *programs = &gl->programs;
-    if (bytes > 0) {
-        programs->measured_bytes += bytes;
-        programs->measured++;
-    }
-    program->bytes = bytes;
+    programs->measured += program->bytes == 0;
+    programs->measured_bytes += bytes;
+    program->bytes += bytes;
 }
 
 struct gn_gl_idle gn_gl_idle_programs(const struct gn_gl *gl) {

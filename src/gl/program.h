@@ -9,6 +9,7 @@ struct gn_gl_program {
     GLuint name;         /* 0: free slot, or dropped */
     bool dropped;        /* it was there once */
     bool kept;           /* see gn_gl_keep_programs() */
+    bool drawn;          /* the driver has compiled what it leaves to the first draw */
     uint64_t bytes;      /* see gn_gl_program_took(); 0: unknown */
     uint64_t made, used; /* values of programs.made when it was made, of programs.runs when a
                             plan with it last ran; 0: none has */
@@ -31,7 +32,7 @@ struct gn_gl_program *gn_gl_program_find(struct gn_gl *gl, const struct gn_progr
 /* It was made in this context, and dropped. */
 bool gn_gl_program_is_dropped(struct gn_gl *gl, const struct gn_program_key *key);
 bool gn_gl_program_ensure(struct gn_gl *gl, const struct gn_program_key *key, struct gn_err *err);
-/* Making it, and the first draws with it, allocated so much. */
+/* Making it, or the first draws with it, allocated so much, which is added to its bytes. */
 void gn_gl_program_took(struct gn_gl *gl, struct gn_gl_program *program, uint64_t bytes);
 void gn_gl_programs_finish(struct gn_gl *gl);
 /* A vertex shader: one triangle over the whole target, of three vertices without attributes. */

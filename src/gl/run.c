@@ -190,8 +190,10 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
     }
     gn_gl_targets_choose(gl, plan->view);
     gl->programs.runs++;
-    for (uint32_t i = 0; i < plan->program_count; i++)
+    for (uint32_t i = 0; i < plan->program_count; i++) {
         gl->plan_programs.at[i]->used = gl->programs.runs;
+        gl->plan_programs.at[i]->drawn = true;
+    }
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     gn_gl_pose_upload(gl, plan);
     gn_gl_materials_update(gl, plan);

@@ -1,9 +1,16 @@
 /* Programs ahead of time: while one plan is shown, the programs of another are made, one per call.
  * Drivers compile as late as they can, at the first draw, for the state that is set then: so each
- * program draws one pixel with the state of the plan. Its maps are stand-ins of a few texels, so
- * that a kiosk does not hold the maps of every mode; the first picture of a mode makes them. */
+ * program draws one pixel with the state of the plan, in a call of its own. Its maps are stand-ins
+ * of a few texels, so that a kiosk does not hold the maps of every mode; the first picture of a
+ * mode makes them. */
 #include "core/memory.h"
 #include "gl/private.h"
+
+/* Since so many bytes were allocated. */
+static void took(struct gn_gl *gl, struct gn_gl_program *program, uint64_t since) {
+    const uint64_t bytes = gn_memory_allocated();
+    if (bytes > since) gn_gl_program_took(gl, program, bytes - since);
+}
 
 static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan, bool again,
                                    struct gn_err *err) {
@@ -12,16 +19,21 @@ static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
     if (made != gl->programs.made) return GN_GL_WARM_MORE; /* proofs compile, too */
     gl->targets.wants_stencil |= plan->stencil;
     if (!gn_gl_maps_ensure(gl, plan, err)) return GN_GL_WARM_FAILED;
-    uint32_t index =
-        0; /* of the first program not made yet, or made with another scene's vertices */
+    uint32_t index = 0; /* of the first not made or drawn yet, or with another scene's vertices */
     for (; index < plan->program_count; index++) {
         if (!again && gn_gl_program_is_dropped(gl, &plan->programs[index])) continue;
         const struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[index]);
-        if (!p || !gn_gl_vertices_known(gl, p->attributes)) break;
+        if (!p || !p->drawn || !gn_gl_vertices_known(gl, p->attributes)) break;
     }
     if (index == plan->program_count) return GN_GL_WARM_DONE;
     const uint64_t bytes = gn_memory_allocated();
     if (!gn_gl_program_prepare(gl, &plan->programs[index], err)) return GN_GL_WARM_FAILED;
+    struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[index]);
+    if (made != gl->programs.made) { /* its draw is a piece of its own */
+        p->bytes = 0;
+        took(gl, p, bytes);
+        return gn_gl_error_check(gl, "making programs", err) ? GN_GL_WARM_MORE : GN_GL_WARM_FAILED;
+    }
     /* A window has formats of its own: the draw goes to a corner of it, if the next picture covers
      * that. */
     struct gn_gl_output *const o = gl->targets.output;
@@ -32,10 +44,8 @@ static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
     if (!corner) gl->targets.output = &gl->targets.pixel;
     const bool ok = gn_gl_touch(gl, plan, index, err);
     gl->targets.output = o;
-    struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[index]);
-    const uint64_t more_bytes = gn_memory_allocated();
-    if (made != gl->programs.made)
-        gn_gl_program_took(gl, p, more_bytes > bytes ? more_bytes - bytes : 0);
+    if (!p->drawn) took(gl, p, bytes);
+    p->drawn = true;
     return ok && gn_gl_error_check(gl, "making programs", err) ? GN_GL_WARM_MORE
                                                                : GN_GL_WARM_FAILED;
 }
