@@ -15,7 +15,7 @@
 #include "unit/show_help.h"
 
 #define PATIENCE_NS (120 * GN_NS_PER_S)
-enum { CALM_FRAMES = 120, FRAMES_MAX = 20000 };
+enum { CALM_FRAMES = 30, FRAMES_MAX = 20000, LOADS = 3 };
 
 static char folder[100];
 
@@ -75,35 +75,46 @@ static struct frame next_frame(struct gn_show *show) {
     return f;
 }
 
-/* Returns the most processor time of the loop that one took while something else than its own
- * scene was worked on. What the kiosk draws first of the new scene is that scene's own. */
-static int64_t print_frames(const char *name, const struct frame *frames, int count) {
-    struct frame most[WORKS] = {{0}};
-    int counts[WORKS] = {0};
-    int64_t most_cpu_ns = 0;
-    for (int i = 0; i < count; i++) {
-        struct frame *m = &most[frames[i].work];
-        counts[frames[i].work]++;
-        if (frames[i].ns > m->ns) m->ns = frames[i].ns;
-        if (frames[i].cpu_ns > m->cpu_ns) m->cpu_ns = frames[i].cpu_ns;
-    }
-    for (int w = 0; w < WORKS; w++)
-        if (counts[w])
-            printf("%s: %d frames with %s: within %.1f ms, the loop %.1f ms\n", name, counts[w],
-                   works[w], (double)most[w].ns * 1e-6, (double)most[w].cpu_ns * 1e-6);
-    for (int w = READS; w < SHOWS; w++)
-        if (most[w].cpu_ns > most_cpu_ns) most_cpu_ns = most[w].cpu_ns;
-    return most_cpu_ns;
+/* The processor time of the loop in the frames of one load. What the kiosk draws first of the new
+ * scene is that scene's own, and not counted. */
+struct costs {
+    int64_t calm_ns;        /* the median without other work */
+    int64_t most_ns[WORKS]; /* of a frame with that work; 0: no frame had it */
+};
+
+static int by_time(const void *a, const void *b) {
+    const struct frame *x = a, *y = b;
+    return (x->cpu_ns > y->cpu_ns) - (x->cpu_ns < y->cpu_ns);
 }
 
-/* From the default scene to another: the most processor time of the loop in a frame meanwhile. */
-static int64_t load_scene(const char *name, const char *path) {
+static void print_frames(const char *name, const struct frame *frames, int count,
+                         struct costs *costs) {
+    for (int w = 0; w < WORKS; w++) {
+        int64_t most_ns = 0;
+        int frame_count = 0;
+        for (int i = 0; i < count; i++) {
+            if (frames[i].work != (enum work)w) continue;
+            frame_count++;
+            if (frames[i].ns > most_ns) most_ns = frames[i].ns;
+            if (frames[i].cpu_ns > costs->most_ns[w]) costs->most_ns[w] = frames[i].cpu_ns;
+        }
+        if (frame_count)
+            printf("%s: %d frames with %s: within %.1f ms, the loop %.1f ms\n", name, frame_count,
+                   works[w], (double)most_ns * 1e-6, (double)costs->most_ns[w] * 1e-6);
+    }
+}
+
+/* From the default scene to another. */
+static struct costs load_scene(const char *name, const char *path) {
     static struct frame frames[FRAMES_MAX], calm[CALM_FRAMES];
+    struct costs costs = {0}, alone = {0};
     write_config(NULL);
     struct gn_show *show = open_show();
     for (int i = 0; i < 60; i++) next_frame(show);
     for (int i = 0; i < CALM_FRAMES; i++) calm[i] = next_frame(show);
-    print_frames(name, calm, CALM_FRAMES);
+    print_frames(name, calm, CALM_FRAMES, &alone);
+    qsort(calm, CALM_FRAMES, sizeof *calm, by_time);
+    costs.calm_ns = calm[CALM_FRAMES / 2].cpu_ns;
     write_config(path);
     show->reloads = true;
     const int64_t begun_ns = gn_clock_monotonic_ns();
@@ -113,21 +124,35 @@ static int64_t load_scene(const char *name, const char *path) {
         frames[count] = next_frame(show);
     } while (frames[count++].work != SHOWS);
     printf("%s: shown after %.1f s\n", name, (double)(gn_clock_monotonic_ns() - begun_ns) * 1e-9);
-    const int64_t most_ns = print_frames(name, frames, count);
+    print_frames(name, frames, count, &costs);
     gn_show_close(show);
-    return most_ns;
+    return costs;
 }
 
-/* Twice: the first time the shader cache may be cold. What other programs do not change is the
- * processor time of the loop: two frame times of it are two missed frames on any machine. */
+/* Each kind of work takes less than a frame time of the loop's processor time beyond what a calm
+ * frame takes, and less than two with it. A host that takes the processor away counts that, too, up
+ * to 70 ms and in one frame of a hundred: so each kind's figure is the least of some loads, the
+ * most of its frames in each. The first load is not counted: the shader cache may be cold. */
 static void check_load(const char *name, const struct gn_large *large) {
     char path[200];
     struct gn_err err = {0};
     snprintf(path, sizeof path, "%s/%s.glb", folder, name);
     if (!gn_large_write(large, path, &err)) fail_msg("%s", err.text);
     load_scene(name, path);
-    assert_true(load_scene(name, path) < 2 * GN_NS_PER_S / 60);
+    struct costs least = load_scene(name, path);
+    for (int i = 1; i < LOADS; i++) {
+        const struct costs costs = load_scene(name, path);
+        if (costs.calm_ns < least.calm_ns) least.calm_ns = costs.calm_ns;
+        for (int w = 0; w < WORKS; w++)
+            if (costs.most_ns[w] < least.most_ns[w]) least.most_ns[w] = costs.most_ns[w];
+    }
     remove(path);
+    for (int w = READS; w < SHOWS; w++) {
+        const int64_t own_ns = least.most_ns[w] - least.calm_ns;
+        if (own_ns >= GN_NS_PER_S / 60 || least.most_ns[w] >= 2 * GN_NS_PER_S / 60)
+            fail_msg("%s: %s takes %.1f ms of a frame, a calm frame %.1f", name, works[w],
+                     (double)least.most_ns[w] * 1e-6, (double)least.calm_ns * 1e-6);
+    }
 }
 
 static void the_default_scene_turns_on_while_a_large_one_loads(void **state) {
