@@ -76,11 +76,12 @@ static uint64_t next_id(void) {
 }
 
 static void mix_texels(struct gn_occluder *o) {
-    const size_t count = 4 * cells_of(o->scene);
-    for (size_t i = 0; i < count; i++) {
-        const float from = o->from[i / 4][i % 4], to = o->to[i / 4][i % 4];
-        o->shown[i / 4][i % 4] = (int8_t)lrintf(from + o->share * (to - from));
-    }
+    const size_t count = cells_of(o->scene);
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 4; k++) {
+            const float from = o->from[i][k], to = o->to[i][k];
+            o->shown[i][k] = (int8_t)lrintf(from + o->share * (to - from));
+        }
     o->id = next_id();
 }
 
