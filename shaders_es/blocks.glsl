@@ -122,6 +122,9 @@
 /* The last pass */
 #define ENCODE_BACKGROUND 0 /* rgb: linear */
 #define ENCODE_SIZE 1
+
+#define MEAN_SHARE 0 /* x: of the picture in the mean, or of the mean in the picture; y: what is brighter is cut */
+#define MEAN_SIZE 1
 /* Captions */
 #define CAPTION_PX 0      /* xy: size of a pixel in NDC (-1..1); zw: cosine and sine of the output's clockwise rotation */
 #define CAPTION_SIZE 1

@@ -28,10 +28,12 @@ static const char *check_draw(const struct gn_plan *plan, const struct gn_pass *
     if (pass->kind != GN_PASS_PICTURE) return NULL;
     const struct gn_pass_picture *picture = &pass->picture;
     const bool adds = key->features & GN_FEATURE(ADDITIVE);
-    const bool panel = key->kind == GN_PROGRAM_PANEL, caption = key->kind == GN_PROGRAM_CAPTION;
+    const bool panel = key->kind == GN_PROGRAM_PANEL, caption = key->kind == GN_PROGRAM_CAPTION,
+               mean = key->kind == GN_PROGRAM_MEAN;
     REQUIRE((key->kind == GN_PROGRAM_FLAT) == picture->only_stencil);
-    REQUIRE(caption ||
+    REQUIRE(caption || mean ||
             (key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
+    REQUIRE(mean == (picture->mean_of || pass->target.kind == GN_TARGET_MEAN));
     REQUIRE(caption || !picture->reads_atlas);
     REQUIRE(adds == (picture->blend == GN_BLEND_ADD));
     const uint64_t tint = GN_FEATURE(TINTED) | GN_FEATURE(UNLIT);
@@ -87,7 +89,11 @@ static bool rect_is_inside(const struct gn_rect *rect, const struct gn_target *t
 static const char *check_picture(const struct gn_plan *plan, const struct gn_pass *pass) {
     const struct gn_pass_picture *p = &pass->picture;
     const bool clears = pass->clear.area != GN_CLEAR_NOTHING;
-    REQUIRE(pass->target.kind == GN_TARGET_OUTPUT || pass->target.kind == GN_TARGET_ENCODED);
+    REQUIRE(pass->target.kind == GN_TARGET_OUTPUT || pass->target.kind == GN_TARGET_ENCODED ||
+            pass->target.kind == GN_TARGET_MEAN);
+    REQUIRE(p->mean_of <= GN_PLAN_VIEWS_MAX && p->mean_of != plan->view + 1);
+    REQUIRE(pass->target.kind != GN_TARGET_MEAN || pass->target.index < 2);
+    REQUIRE(!p->mean_of || (!pass->depth_write && !clears));
     REQUIRE(pass->clear.area != GN_CLEAR_RECT && pass->viewport.width == 0);
     REQUIRE(pass->content.hash == 0);
     if (p->reads_atlas) {
@@ -263,7 +269,9 @@ const char *gn_plan_check(const struct gn_plan *plan) {
     REQUIRE(passes[0].clear.area != GN_CLEAR_NOTHING);
     REQUIRE(passes[plan->pass_count - 1].kind == GN_PASS_PICTURE);
     REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) == plan->finishes);
-    REQUIRE(!plan->finishes || plan->output == GN_OUTPUT_FLOAT);
+    REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_MEAN) == plan->gathers);
+    REQUIRE(!plan->gathers || (!plan->finishes && plan->msaa == 0));
+    REQUIRE(!(plan->finishes || plan->gathers) || plan->output == GN_OUTPUT_FLOAT);
     REQUIRE(plan->tone > GN_TONE_AUTO && plan->tone < GN_TONE_COUNT);
     return NULL;
 }

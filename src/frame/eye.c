@@ -122,10 +122,13 @@ void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts
     fit_planes(framing, pose, aspect);
 }
 
-static void shift_scene(const struct gn_frame *frame, const int shift_px[2], mat4 clip_from_view) {
-    if (shift_px[0] == 0 && shift_px[1] == 0) return;
-    const float x = 2.0f * (float)shift_px[0] / (float)frame->picture.width_px,
-                y = 2.0f * (float)shift_px[1] / (float)frame->picture.height_px;
+static void shift_scene(const struct gn_frame *frame, const struct gn_frame_view_opts *view,
+                        mat4 clip_from_view) {
+    const float x_px = (float)view->shift_px[0] + view->aside_px[0],
+                y_px = (float)view->shift_px[1] + view->aside_px[1],
+                x = 2.0f * x_px / (float)frame->picture.width_px,
+                y = 2.0f * y_px / (float)frame->picture.height_px;
+    if (x == 0.0f && y == 0.0f) return;
     for (int k = 0; k < 4; k++) {
         clip_from_view[k][0] += x * clip_from_view[k][3];
         clip_from_view[k][1] += y * clip_from_view[k][3];
@@ -139,7 +142,7 @@ static void find_look(const struct gn_frame *frame, const struct gn_pose *pose,
     mat4 clip_from_view;
     gn_frame_camera(pose, &opts->view, aspect, framing);
     project(&framing->camera, aspect, 1.0f, clip_from_view);
-    shift_scene(frame, opts->view.shift_px, clip_from_view);
+    shift_scene(frame, &opts->view, clip_from_view);
     /* Rotates the picture in clip space: free for a rotated screen. */
     const float cosine = frame->picture.turn[0], sine = frame->picture.turn[1];
     for (int k = 0; k < 4; k++) {

@@ -90,9 +90,11 @@ static void choose_finish(struct gn_frame *frame, const struct gn_frame_opts *op
     plan->finished = plan->output;
     plan->tones_sum = plan->tone != GN_TONE_NONE && adds;
     plan->transparent = keeps_alpha(frame, opts, warnings);
+    plan->encode_srgb &= opts->gather.part <= 0.0f; /* a mean is one of linear light */
     plan->finishes =
         (plan->encode_srgb && (adds || resolves_to_float)) || plan->tones_sum || plan->transparent;
-    if (plan->finishes) plan->output = GN_OUTPUT_FLOAT;
+    plan->gathers = opts->gather.part > 0.0f && !plan->finishes;
+    if (plan->finishes || plan->gathers) plan->output = GN_OUTPUT_FLOAT;
 }
 
 /* Before programs are chosen: what of the environment is drawn. */

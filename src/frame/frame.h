@@ -38,6 +38,7 @@ struct gn_frame_view_opts {
     float turntable_rad; /* the camera is rotated about +Y through the scene's centre by this */
     int shift_px[2]; /* scene and captions stand so far to the right and up in the picture; captions
                         no further than its edge */
+    float aside_px[2]; /* the same of the scene alone: parts of a pixel */
 };
 
 struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it */
@@ -86,7 +87,9 @@ struct gn_frame_output_opts {     /* what the picture is drawn to: assigned whol
 struct gn_frame_cover_opts {               /* what lies over the finished picture */
     const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
     bool captions_later;                   /* include their program even without captions */
-    float dimmed; /* share of its light that the picture loses, captions too; 0: none */
+    float dimmed;     /* share of its light that the picture loses, captions too; 0: none */
+    float mean;       /* share of a mean of pictures that lies over the picture, below captions */
+    uint32_t mean_of; /* the number of the view that gathered it */
 };
 
 struct gn_frame_opts {
@@ -112,6 +115,12 @@ struct gn_frame_opts {
                           left out with a warning. 0: none */
     bool all_seen;     /* no culling: for programs that will be needed later */
     uint32_t number;   /* as gn_plan.view */
+    struct {
+        float part, whole;
+    } gather; /* This picture goes into a mean of some, with the weight `part`, 1: the first; that
+                 then into the view's mean, with the weight `whole`, 0: not yet, 1: the first. 0, 0:
+                 it is a picture. Needs rgba16f targets, and a tone that is mapped as surfaces are
+                 drawn: else plan.gathers is false */
 };
 
 /* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from

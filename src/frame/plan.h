@@ -118,6 +118,8 @@ enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
     GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
+    GN_TARGET_MEAN,    /* beside an output that `gathers`. 1: of a part of the pictures, which is
+                          drawn from the output; 0: of all, from those */
     GN_TARGET_PAGES,   /* beside a map, of its size, or that of one of its cascades: from here a
                           later pass copies */
     GN_TARGET_MOMENTS, /* what a map is filtered into */
@@ -133,8 +135,8 @@ struct gn_target {
     uint32_t width_px, height_px;
     enum gn_encoding encoding; /* SHADOW, PAGES, BACKS */
     enum gn_moments moments;   /* MOMENTS */
-    uint32_t index; /* MOMENTS: as in gn_filter_stage: 0 is the slot's own; the others are
-                       shared, and hold something until the slot's filter ends */
+    uint32_t index; /* MEAN: as above. MOMENTS: as in gn_filter_stage: 0 is the slot's own; the
+                       others are shared, and hold something until the slot's filter ends */
     bool mipmaps;   /* MOMENTS: made of the whole when it is complete */
 };
 /* What a filter reads. */
@@ -205,6 +207,7 @@ struct gn_pass {
             uint32_t slide_count, slides[GN_SLIDES_MAX]; /* textures; slide i: sampler i */
             bool reads_codes; /* map samplers do not compare, and are of maps, filtered or not */
             bool reads_atlas; /* plan->atlas is behind sampler 0 */
+            uint32_t mean_of; /* the mean of that view's pictures is, from 1; 0: none */
             bool resolves;    /* the last to OUTPUT: its samples are averaged after this pass */
         } picture;
         struct gn_pass_map {
@@ -251,6 +254,7 @@ struct gn_plan {
     enum gn_tone tone;              /* never AUTO */
     bool tones_sum;                 /* the last pass maps it */
     bool transparent;               /* the last pass keeps alpha, and divides colours by it */
+    bool gathers;                   /* output is FLOAT, and goes into a mean of pictures */
     uint32_t msaa;                  /* samples: 0, 2, 4 */
     bool stencil;                   /* the output has one */
     enum gn_aov aov;

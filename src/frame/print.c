@@ -103,6 +103,7 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
     switch (pass->target.kind) {
     case GN_TARGET_OUTPUT: fprintf(to, "picture"); break;
     case GN_TARGET_ENCODED: fprintf(to, "picture in bytes"); break;
+    case GN_TARGET_MEAN: fprintf(to, "mean %u", pass->target.index); break;
     case GN_TARGET_SHADOW:
         fprintf(to, "map %u (%s, rim %u px)", pass->target.slot,
                 gn_encodings[pass->target.encoding].name,
@@ -141,6 +142,7 @@ static void print_picture(const struct gn_plan *plan, const struct gn_pass *pass
         p->first_on_plane != p->first_shadow + p->shadow_count - p->plane_count)
         fprintf(to, ", planar maps from %u", p->first_on_plane);
     if (p->reads_codes) fprintf(to, ", shows map %u", p->first_shadow);
+    if (p->mean_of) fprintf(to, ", mean of view %u", p->mean_of - 1);
     if (p->reads_atlas)
         fprintf(to, ", atlas %u x %u", plan->atlas->width_px, plan->atlas->height_px);
     for (uint32_t i = 0; p->blend == GN_BLEND_ADD && i < p->light_count; i++) {

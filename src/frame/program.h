@@ -20,6 +20,7 @@
     X(BACKDROP, "backdrop", "backdrop.vert", "backdrop.frag", PICTURE, GN_PROGRAM_BARE) /* the environment behind everything */ \
     X(FLOOR, "floor", "floor.vert", "floor.frag", PICTURE, GN_PROGRAM_BARE)             /* an unseen floor, by a texture of its alpha */ \
     X(ENCODE, "encode", "encode.vert", "encode.frag", PICTURE, GN_PROGRAM_BARE)         /* the linear picture, encoded */ \
+    X(MEAN, "mean", "encode.vert", "mean.frag", PICTURE, GN_PROGRAM_BARE)               /* the picture to a mean, or that over the picture */ \
     X(CAPTION, "caption", "caption.vert", "caption.frag", PICTURE, GN_PROGRAM_BARE)     /* texts */ \
     X(FILTER, "filter", "encode.vert", NULL, FILTER, GN_PROGRAM_BARE)                   /* a map or moments to moments; gn_filter_steps has the fragment stages */
 /* clang-format on */
@@ -32,6 +33,7 @@
     X(blended)                                                                                     \
     X(overlay)                                                                                     \
     X(encode)                                                                                      \
+    X(mean)                                                                                        \
     X(captions)
 
 enum { GN_PROGRAM_BARE = 1, GN_PROGRAM_ENCODING = 2 };

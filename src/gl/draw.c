@@ -58,7 +58,12 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
     if (pass->kind != GN_PASS_PICTURE) return;
     if (picture->reads_atlas)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->atlas.texture, nearest);
-    else if (pass->target.kind == GN_TARGET_ENCODED)
+    else if (picture->mean_of)
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP,
+                           gl->targets.outputs[picture->mean_of - 1].mean_colors[0], nearest);
+    else if (pass->target.kind == GN_TARGET_MEAN && pass->target.index == 0)
+        gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output->mean_colors[1], nearest);
+    else if (pass->target.kind == GN_TARGET_ENCODED || pass->target.kind == GN_TARGET_MEAN)
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, gl->targets.output->texture, nearest);
     else if (picture->shadow_count == 0) /* no map that compares is left to who does not */
         gn_gl_bind_texture(gl, GN_GL_UNIT_MAP, 0, nearest);

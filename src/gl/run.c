@@ -71,8 +71,9 @@ static bool holds_content(const struct gn_gl_map *map, uint32_t tile, uint64_t h
 static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
                              const struct gn_gl_map *map) {
     if (map) return map->framebuffer;
-    return pass->target.kind == GN_TARGET_ENCODED ? gl->targets.output->encoded
-                                                  : gl->targets.output->framebuffer;
+    const struct gn_gl_output *output = gl->targets.output;
+    if (pass->target.kind == GN_TARGET_MEAN) return output->means[pass->target.index];
+    return pass->target.kind == GN_TARGET_ENCODED ? output->encoded : output->framebuffer;
 }
 
 /* What a pass is to clear. Clearing a whole map is free on a tiled GPU; clearing one tile of it

@@ -51,7 +51,18 @@ static void output_finish(struct gn_gl *gl, struct gn_gl_output *o) {
     gn_gl_object_destroy(gl, GN_GL_TEXTURE, &o->texture);
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->encoded);
     gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->encoded_color);
+    for (int i = 0; i < 2; i++) {
+        gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->means[i]);
+        gn_gl_object_destroy(gl, GN_GL_TEXTURE, &o->mean_colors[i]);
+    }
     *o = (struct gn_gl_output){0};
+}
+
+static void attach_texture(struct gn_gl *gl, const struct gn_gl_output *o, GLuint *texture) {
+    *texture =
+        gn_gl_texture_make(gl, 1, output_formats[o->format].format, o->width_px, o->height_px);
+    GL(gl, FramebufferTexture2D)
+    (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, *texture, 0);
 }
 
 /* Attaches the colour of the bound framebuffer: a texture if shaders read it, else a renderbuffer.
@@ -64,9 +75,7 @@ static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color
         attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, *color);
         return;
     }
-    o->texture = gn_gl_texture_make(gl, 1, format, o->width_px, o->height_px);
-    GL(gl, FramebufferTexture2D)
-    (GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, o->texture, 0);
+    attach_texture(gl, o, &o->texture);
 }
 
 GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
@@ -84,13 +93,14 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
     o->depth = make_renderbuffer(gl, o->stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24,
                                  (GLsizei)o->msaa, o->width_px, o->height_px);
     o->framebuffer = gn_gl_framebuffer_make(gl);
-    attach_color(gl, o, &o->color, (GLsizei)o->msaa, encoded && !o->msaa);
+    attach_color(gl, o, &o->color, (GLsizei)o->msaa, (encoded && !o->msaa) || o->gathers);
     attach_renderbuffer(gl, o->stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT,
                         o->depth);
     const uint64_t pixels = (uint64_t)o->width_px * o->height_px;
     const unsigned color_bytes = output_formats[o->format].bytes;
     o->bytes = pixels * (color_bytes + 4) * (o->msaa ? o->msaa : 1) +
-               (o->msaa ? pixels * color_bytes : 0) + (encoded ? 4 * pixels : 0);
+               (o->msaa ? pixels * color_bytes : 0) + (encoded ? 4 * pixels : 0) +
+               (o->gathers ? 2 * pixels * color_bytes : 0);
     if (!gn_gl_framebuffer_check(gl, "output", err)) return false;
 
     o->resolved = o->framebuffer;
@@ -105,6 +115,11 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
         o->encoded = gn_gl_framebuffer_make(gl);
         attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->encoded_color);
         if (!gn_gl_framebuffer_check(gl, "encoded output", err)) return false;
+    }
+    for (int i = 0; o->gathers && i < 2; i++) {
+        o->means[i] = gn_gl_framebuffer_make(gl);
+        attach_texture(gl, o, &o->mean_colors[i]);
+        if (!gn_gl_framebuffer_check(gl, "mean of pictures", err)) return false;
     }
     return gn_gl_error_check(gl, "making the output", err);
 }
@@ -121,15 +136,17 @@ static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
         .format = plan->output,
         .stencil = plan->stencil || gl->targets.wants_stencil,
         .msaa_wanted = plan->msaa,
-        .window = !pixel && fits_window,
+        .window = !pixel && fits_window && !plan->gathers,
         .finished = plan->finished,
         .encodes = plan->finishes,
+        .gathers = plan->gathers,
         .made = true,
     };
     if (o->made && o->window == wanted.window && o->width_px == wanted.width_px &&
         o->height_px == wanted.height_px && o->format == wanted.format &&
         o->msaa_wanted == wanted.msaa_wanted && o->stencil == wanted.stencil &&
-        o->encodes == wanted.encodes && o->finished == wanted.finished)
+        o->encodes == wanted.encodes && o->finished == wanted.finished &&
+        o->gathers == wanted.gathers)
         return true;
     output_finish(gl, o);
     if (plan->msaa > 1 && plan->output != GN_OUTPUT_AOV && gl->caps.has & 1u << GN_CAP_MSAA4) {

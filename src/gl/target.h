@@ -16,6 +16,8 @@ struct gn_gl_output {
     GLuint resolved, resolved_color; /* without msaa the same as framebuffer, and 0 */
     /* With such a pass: the linear picture as a texture, and the result, in that format. */
     GLuint texture, encoded, encoded_color;
+    bool gathers; /* the picture is a texture, and beside it are means, by their index */
+    GLuint means[2], mean_colors[2];
     uint64_t bytes;
 };
 struct gn_gl_map {             /* a shadow map, or moments of one */

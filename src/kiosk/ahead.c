@@ -30,6 +30,7 @@ void gn_show_forget_work(struct gn_show_screen *s) {
     s->fade.prepared = false;
     gn_view_stop(&s->split.view);
     gn_truth_drop(s);
+    gn_still_drop(s);
 }
 
 void gn_show_drop_staged(struct gn_show_screen *s) {
@@ -179,7 +180,8 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     struct gn_loaded *loaded = staged->loaded;
     const struct gn_loaded shown = {
         .scene = stage->scene, .pose = stage->pose, .occluder = stage->occluder};
-    gn_truth_drop(s); /* both are of the other scene */
+    gn_truth_drop(s); /* these are of the other scene */
+    gn_still_drop(s);
     gn_view_close(&s->split.view, s->stage.gl);
     gn_view_stop(&stage->shown);
     if (stage->gl) gn_gl_stage_show(stage->gl);

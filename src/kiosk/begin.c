@@ -115,6 +115,7 @@ bool gn_show_begin(struct gn_show *s, int scene, struct gn_err *err) {
     screen->stage.shown.rested_ns = 0;
     gn_show_list_modes(s, scene);
     gn_truth_drop(screen);
+    gn_still_drop(screen);
     screen->truth = (struct gn_show_truth){0};
     gn_view_close(&screen->split.view, screen->stage.gl);
     screen->split = (struct gn_show_split){0}; /* its mode is of the other list */

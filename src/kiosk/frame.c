@@ -27,8 +27,8 @@ bool gn_show_wants_frame(const struct gn_show_screen *s) {
         view.caption_mode != drawn->caption_mode || view.caption_scene != drawn->caption_scene ||
         (view.stands && (view.time_ns != drawn->time_ns || view.clip_ns != drawn->clip_ns));
     return moves || differs || gn_parts_want_frame(&s->show->parts) || gn_show_bar_moves(s) ||
-           gn_truth_wants_frame(s) || gn_occluder_fades(s->stage.occluder) ||
-           gn_show_captions_due_ns(s) <= screen->seen_ns;
+           gn_truth_wants_frame(s) || gn_still_wants_frame(s) ||
+           gn_occluder_fades(s->stage.occluder) || gn_show_captions_due_ns(s) <= screen->seen_ns;
 }
 
 /* Fills a requested screenshot from this frame. */
@@ -77,12 +77,14 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
     }
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     gn_show_step_turntable(s, seen_ns, scene_ns);
+    gn_still_lay_over(s, scene_ns, view.mode != s->drawn.mode || view.scene != s->drawn.scene);
     const struct gn_plan *left = s->split.on ? gn_split_draw_left(s, scene_ns, err) : NULL;
     if (s->split.on && !left) return false;
     const struct gn_plan *plan =
         s->truth.on ? gn_truth_draw(s, scene_ns, err)
                     : gn_view_draw(&s->stage.shown, &s->stage, scene_ns, s->show->warnings, err);
     if (!plan) return false;
+    gn_still_follow(s);
     *behind = plan->is_behind || (left && left->is_behind);
     if (s->split.on)
         gn_split_lay_over(s);

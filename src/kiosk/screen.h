@@ -7,6 +7,7 @@
 
 #include "kiosk/modes.h"
 #include "kiosk/split.h"
+#include "kiosk/still.h"
 #include "kiosk/text.h"
 #include "kiosk/truth.h"
 #include "kiosk/turntable.h"
@@ -72,7 +73,8 @@ struct gn_show_screen {
     struct gn_show_viewer viewer;
     struct gn_show_split split;
     struct gn_show_truth truth; /* while the split is on */
-    bool changed;               /* the next picture differs: draw it */
+    struct gn_show_still still;
+    bool changed; /* the next picture differs: draw it */
 };
 
 /* ---- step.c: the top ------------------------------------------------------------------------ */

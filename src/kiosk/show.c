@@ -61,6 +61,7 @@ void gn_show_close(struct gn_show *s) {
     gn_show_close_loader(s);
     gn_show_drop_staged(&s->screen);
     gn_split_end(&s->screen);
+    gn_still_drop(&s->screen);
     gn_stage_close(&s->screen.stage);
     gn_parts_destroy(&s->parts);
     gn_loop_remove_signals(&s->signals);

@@ -9,11 +9,14 @@ int64_t gn_show_screen_due_ns(const struct gn_show_screen *s) {
     if (gn_show_wants_frame(s) || gn_show_is_stale(s) || gn_show_can_advance(s)) return 0;
     const int64_t now_ns = gn_loop_now_ns(s->show->loop);
     int64_t at_ns = gn_kiosk_deadline(&s->rules, &s->kiosk);
-    if (gn_show_has_work(s) && s->ahead.due_ns < at_ns) at_ns = s->ahead.due_ns;
-    const int64_t others_ns[] = {
-        gn_show_bar_due_ns(s), gn_viewer_due_ns(s), gn_truth_due_ns(s), gn_show_turntable_due_ns(s),
-        gn_occluder_works(s->stage.occluder) ? now_ns + POLL_NS : INT64_MAX};
-    for (int i = 0; i < 5; i++)
+    const int64_t others_ns[] = {gn_show_has_work(s) ? s->ahead.due_ns : gn_still_due_ns(s),
+                                 gn_show_bar_due_ns(s),
+                                 gn_viewer_due_ns(s),
+                                 gn_truth_due_ns(s),
+                                 gn_show_turntable_due_ns(s),
+                                 gn_occluder_works(s->stage.occluder) ? now_ns + POLL_NS
+                                                                      : INT64_MAX};
+    for (int i = 0; i < 6; i++)
         if (others_ns[i] < at_ns) at_ns = others_ns[i];
     const int64_t text_ns = gn_show_captions_due_ns(s); /* an overdue text waits for the screen */
     if (s->stage.display.screen.lit && text_ns > now_ns && text_ns < at_ns) at_ns = text_ns;
@@ -68,6 +71,8 @@ bool gn_show_step_picture(struct gn_show_screen *s, struct gn_err *err) {
         /* no frame to miss: what is waited for is not spread over frames */
         if ((s->staged.loaded || gn_kiosk_waits(&s->kiosk)) && s->stage.display.screen.may_draw)
             ahead->due_ns = gn_loop_now_ns(s->show->loop);
+    } else if (!gn_show_has_work(s)) {
+        gn_still_step(s);
     }
     gn_show_advance(s); /* that piece, or the picture kept for a fade, may be what it waited for */
     gn_show_enter_set(s);

@@ -93,6 +93,7 @@ struct gn_scene_settings {
     double texture_limit_px; /* NAN: automatic, INFINITY: none */
 };
 enum gn_occlusion_setting { GN_OCCLUSION_AUTO, GN_OCCLUSION_NONE };
+enum gn_gather_setting { GN_GATHER_AUTO, GN_GATHER_NONE };
 enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
     struct gn_size size;
@@ -118,6 +119,7 @@ struct gn_render_settings {
     double environment_turn_deg, environment_strength;
     int environment_show; /* enum gn_environment_show */
     int occlusion;        /* enum gn_occlusion_setting */
+    int gather;           /* enum gn_gather_setting */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */

@@ -371,6 +371,19 @@ void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
     unit_or(world[2], (vec3){0, 0, 1}, direction_ws);
     glm_vec3_negate(direction_ws);
     position_of(world, position_ws);
+    if (!pose->lights_aside) return;
+    const float *aside = pose->lights_aside[light];
+    if (gn_light_types[pose->scene->lights[light].type].has_position) {
+        glm_vec3_add(position_ws, (float *)aside, position_ws);
+        return;
+    }
+    vec3 x, y;
+    glm_vec3_ortho(direction_ws, x);
+    gn_unit(x);
+    glm_vec3_cross(direction_ws, x, y);
+    glm_vec3_muladds(x, aside[0], direction_ws);
+    glm_vec3_muladds(y, aside[1], direction_ws);
+    gn_unit(direction_ws);
 }
 
 void gn_pose_aim(struct gn_pose *pose, const float *aim_ws) {

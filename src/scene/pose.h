@@ -70,6 +70,9 @@ struct gn_pose {
     const struct gn_light *lights;
     const struct gn_camera *cameras;
     const struct gn_material *materials;
+    /* By light: how far it is from its place, metres; of one without a place, how far across its
+     * direction it shines, as a tangent along two axes. NULL: each is at its own. Not owned. */
+    const float (*lights_aside)[3];
     bool *node_hidden; /* scene->node_count; NULL: none is, at any time */
     void *memory;      /* private */
 };

@@ -43,6 +43,7 @@ static void count_changes(struct gn_view *view) {
     memcpy(&now.view, &view->opts.view, sizeof now.view);
     memcpy(&now.output, &view->opts.output, sizeof now.output);
     memcpy(&now.at, &view->pose->at, sizeof now.at);
+    if (gn_pose_stands(view->pose)) now.at.time_ns = INT64_MIN; /* all times are the same moment */
     if (memcmp(&now, &view->posed, sizeof now) == 0) return;
     memcpy(&view->posed, &now, sizeof now);
     view->generation++;

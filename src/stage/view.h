@@ -15,6 +15,7 @@ enum gn_view_number { /* views of one frame: each has targets of its own */
                       GN_VIEW_SHOWN,
                       GN_VIEW_LEFT,
                       GN_VIEW_TRUTH,
+                      GN_VIEW_STILL,
 };
 struct gn_view {
     struct gn_frame *builder;   /* NULL: the next plan makes it */

@@ -295,6 +295,7 @@ static bool write_rest(const char *folder, struct gn_err *err) {
         {"map-mean", caster(GN_PROGRAM_DISTANCE, 0, GN_ENCODING_MEAN)},
         {"floor-alpha", floor_alpha()},
         {"floor", caster(GN_PROGRAM_FLOOR, 0, GN_ENCODING_DEPTH)},
+        {"mean", caster(GN_PROGRAM_MEAN, 0, GN_ENCODING_DEPTH)},
     };
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)
         if (!write(folder, programs[i].name, &programs[i].key, err)) return false;

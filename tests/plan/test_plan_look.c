@@ -16,6 +16,29 @@ static void test_tone_of_many_lights_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* A picture into a mean, and that over another view's picture, also over one that is finished last.
+ */
+static void test_mean_plan(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.number = 3;
+    f.opts.gather.part = 0.125f;
+    assert_int_equal(gn_plan_make(&f)->passes[gn_plan_make(&f)->pass_count - 1].target.index, 1);
+    f.opts.gather.whole = 0.25f;
+    gn_plan_expect(gn_plan_make(&f), "mean-gather");
+    assert_true(gn_plan_make(&f)->gathers);
+    f.opts.background = GN_BACKGROUND_TRANSPARENT; /* its last pass makes bytes of it */
+    f.opts.output.keeps_alpha = true;
+    assert_false(gn_plan_make(&f)->gathers);
+    gn_plan_end(&f);
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    f.opts.cover.mean = 0.5f;
+    f.opts.cover.mean_of = 3;
+    gn_plan_expect(gn_plan_make(&f), "mean-over");
+    gn_plan_end(&f);
+}
+
 static bool maps_tone(const struct gn_plan *plan, enum gn_program_kind kind) {
     const uint64_t any = GN_FEATURE(TONE_NEUTRAL) | GN_FEATURE(TONE_ACES) | GN_FEATURE(TONE_AGX);
     for (uint32_t i = 0; i < plan->program_count; i++)
@@ -175,6 +198,7 @@ static void test_backdrop_plan(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tone_of_many_lights_plan),
+        cmocka_unit_test(test_mean_plan),
         cmocka_unit_test(test_a_tone_is_for_pictures_that_are_looked_at),
         cmocka_unit_test(test_blended_plan),
         cmocka_unit_test(test_glass_plan),

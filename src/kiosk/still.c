@@ -1,0 +1,179 @@
+#include "kiosk/still.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "core/arena.h"
+#include "core/clock.h"
+#include "kiosk/private.h"
+#include "shadow/lamp.h"
+#include "stage/occlusion.h"
+
+static const int64_t REST_NS = GN_NS_PER_S * 3 / 10; /* a view that is so old has come to rest */
+enum { FADE_IN_FRAMES = 30, FADE_OUT_FRAMES = 8 };
+
+void gn_still_drop(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    gn_view_close(&t->view, s->stage.gl);
+    free(t->aside);
+    *t = (struct gn_show_still){.changed_ns = gn_loop_now_ns(s->show->loop)};
+}
+
+bool gn_still_wants_frame(const struct gn_show_screen *s) {
+    const struct gn_show_still *t = &s->still;
+    return t->points == GN_STILL_POINTS ? t->share < 1.0f : t->share > 0.0f;
+}
+
+static bool may_gather(const struct gn_show_screen *s) {
+    const struct gn_show_still *t = &s->still;
+    const struct gn_frame_opts *opts = &s->stage.shown.opts;
+    const struct gn_screen *screen = &s->stage.display.screen;
+    if (s->stage.settings->render.gather != GN_GATHER_AUTO || !s->stage.gl || t->never)
+        return false;
+    if (t->points == GN_STILL_POINTS || t->share > 0.0f || !s->stage.shown.builder) return false;
+    if (!screen->may_draw || !screen->lit || screen->black || s->drawn.dark) return false;
+    if (s->truth.on || s->split.on || s->staged.loaded || gn_kiosk_waits(&s->kiosk)) return false;
+    return opts->debug.aov == GN_AOV_COLOR && !opts->debug.show_maps && !opts->debug.show_lights &&
+           !gn_loader_is_busy(s->show->scenes.loader) && !gn_occluder_works(s->stage.occluder);
+}
+
+int64_t gn_still_due_ns(const struct gn_show_screen *s) {
+    return may_gather(s) ? s->still.changed_ns + REST_NS : INT64_MAX;
+}
+
+/* ---- the view that gathers ---- */
+
+static struct gn_light_opts *own_opts(struct gn_frame_shadow_opts *shadow, uint32_t light) {
+    uint32_t at = 0;
+    while (at < shadow->light_count && shadow->lights[at].light != light) at++;
+    if (at == GN_ALL_LIGHTS_MAX) return NULL;
+    if (at == shadow->light_count)
+        shadow->lights[shadow->light_count++] = (struct gn_light_opts){.light = light};
+    return &shadow->lights[at];
+}
+
+/* The shown view with hard shadows of those lights that have soft ones, from one point of each.
+ * False: no light has. */
+static bool share_shown(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    const struct gn_view *shown = &s->stage.shown;
+    const struct gn_scene *scene = s->stage.pose.scene;
+    struct gn_frame_opts *opts = &t->view.opts;
+    bool any = false;
+    gn_view_share(&t->view, GN_VIEW_STILL, shown, &shown->opts);
+    opts->output.msaa = 0; /* each part is of another eighth of a pixel */
+    opts->output.keeps_alpha = false;
+    opts->cover = (struct gn_frame_cover_opts){0};
+    opts->shadow.filter_texels = opts->shadow.gather_points = 0;
+    if (!t->aside) t->aside = gn_xalloc(scene->light_count + 1, sizeof *t->aside);
+    const uint32_t point = t->points % GN_STILL_POINTS;
+    float place[3];
+    gn_lamp_point(point, GN_STILL_POINTS, place);
+    for (uint32_t i = 0; i < scene->light_count; i++) {
+        const struct gn_light_opts holds =
+            gn_frame_light_opts(shown->builder, &s->stage.pose, &shown->opts, i);
+        const struct gn_technique_row *row = &gn_techniques[holds.technique];
+        const bool soft = row->soft && !row->on_plane && !row->on_screen && holds.radius > 0.0f &&
+                          holds.on && scene->lights[i].slide < 0;
+        struct gn_light_opts *own = soft ? own_opts(&opts->shadow, i) : NULL;
+        for (int k = 0; k < 3; k++) t->aside[i][k] = own ? holds.radius * place[k] : 0.0f;
+        if (!own) continue;
+        any = true;
+        GN_LIGHT_SET(own, technique, GN_TECHNIQUE_HARD);
+        GN_LIGHT_SET(own, map_format, GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
+    }
+    /* Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences" (2018): evenly spread */
+    const uint32_t part = point / GN_STILL_PART, in_part = point % GN_STILL_PART;
+    opts->view.aside_px[0] = (float)((part % 4 + fmod(0.7548776662466927 * point, 1)) / 4 - 0.5);
+    opts->view.aside_px[1] = (float)((part / 4 + fmod(0.5698402909980532 * point, 1)) / 2 - 0.5);
+    opts->gather.part = 1.0f / (float)(in_part + 1);
+    opts->gather.whole = in_part == GN_STILL_PART - 1 ? 1.0f / (float)(part + 1) : 0.0f;
+    return any;
+}
+
+/* A program of a plan, of all that it can need. True: it was the last. */
+static bool warm(struct gn_show_screen *s, struct gn_view *view, const struct gn_frame_opts *opts) {
+    struct gn_err unused = {0}; /* the technique's picture stays */
+    struct gn_frame_opts all = *opts;
+    all.all_seen = true;
+    const struct gn_plan *plan = gn_view_build(view, s->stage.gl, &all, NULL);
+    s->still.never |= opts->gather.part > 0.0f && !plan->gathers;
+    if (s->still.never) return false;
+    switch (gn_gl_warm(s->stage.gl, plan, true, &unused)) {
+    case GN_GL_WARM_DONE: return true;
+    case GN_GL_WARM_FAILED: s->still.never = true; return false;
+    case GN_GL_WARM_REBUILD: gn_view_stop(view); return false;
+    default: return false;
+    }
+}
+
+/* The lights are at their places here: the exposure is chosen by the first plan. */
+static void prepare(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    struct gn_frame_opts over = s->stage.shown.opts;
+    over.cover.mean = 1.0f;
+    over.cover.mean_of = GN_VIEW_STILL;
+    if (!(gn_gl_caps(s->stage.gl)->has & 1u << GN_CAP_RGBA16F) || !share_shown(s))
+        t->never = true;
+    else
+        t->prepared = warm(s, &t->view, &t->view.opts) && warm(s, &s->stage.shown, &over);
+    if (t->prepared || t->never) gn_gl_warm_end(s->stage.gl);
+}
+
+static bool add_point(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    struct gn_err unused = {0};
+    share_shown(s);
+    s->stage.pose.lights_aside = (const float(*)[3])t->aside;
+    const struct gn_plan *plan = gn_view_plan(&t->view, s->stage.gl, NULL, &unused);
+    s->stage.pose.lights_aside = NULL;
+    return plan && plan->gathers && gn_gl_run(s->stage.gl, plan, NULL, &unused);
+}
+
+void gn_still_step(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    const int64_t begun_ns = gn_loop_now_ns(s->show->loop),
+                  until_ns = begun_ns + s->stage.display.screen.period_ns / 2;
+    if (begun_ns < gn_still_due_ns(s)) return;
+    gn_gl_set_window(s->stage.gl, NULL);
+    if (!t->prepared) {
+        prepare(s);
+        return;
+    }
+    do {
+        t->never = !add_point(s);
+        t->points += !t->never;
+        gn_gl_finish_frame(s->stage.gl); /* nothing queues up that a button would wait for */
+    } while (!t->never && t->points < GN_STILL_POINTS && gn_loop_now_ns(s->show->loop) < until_ns);
+}
+
+/* ---- frames ---- */
+
+/* The mean is of another picture now. */
+static void begin_anew(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    t->generation = s->stage.shown.generation;
+    t->changed_ns = gn_loop_now_ns(s->show->loop);
+    t->points = 0;
+    t->prepared = t->never = false;
+}
+
+void gn_still_lay_over(struct gn_show_screen *s, int64_t time_ns, bool cut) {
+    struct gn_show_still *t = &s->still;
+    struct gn_view *view = &s->stage.shown;
+    view->opts.cover.mean = 0.0f;
+    if (t->share <= 0.0f && t->points < GN_STILL_POINTS) return;
+    gn_view_pose(view, s->stage.settings, time_ns);
+    const bool ends = cut || s->split.on || s->truth.on;
+    if (t->generation != view->generation || ends) begin_anew(s);
+    t->share += t->points == GN_STILL_POINTS ? 1.0f / FADE_IN_FRAMES : -1.0f / FADE_OUT_FRAMES;
+    t->share = ends ? 0.0f : glm_clamp(t->share, 0.0f, 1.0f);
+    view->opts.cover.mean = t->share;
+    view->opts.cover.mean_of = GN_VIEW_STILL;
+}
+
+void gn_still_follow(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    if (t->generation != s->stage.shown.generation) begin_anew(s);
+    if (t->points == 0 && t->share <= 0.0f && t->view.builder) gn_view_close(&t->view, s->stage.gl);
+}
