@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-tangents truth swim benchmark benchmark-scenes gallery contact-sheet \
+.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet \
         lessons book readme options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
@@ -41,6 +41,8 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make options-page
 #:                 the table of keys in src/options/README.md, from the table of options
 #: make gallery    one scene with every technique and the truth, into assets/gallery
+#: make models     default pictures of the models of ../shared/assets against the same by rays;
+#:                 SHADOW=.. for another technique
 #: make contact-sheet
 #:                 the modes of the default scene, gone through by keys, as one picture
 #: make lessons    faults of shadows beside their cures, into build/lessons/index.html
@@ -71,7 +73,7 @@ dist:
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
 MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
 TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-tangents,$(filter check check-% accept full,$(GOALS)))
-IN_test     := $(TABLED) check-modelviewer check-tangents truth swim benchmark benchmark-scenes gallery contact-sheet book readme
+IN_test     := $(TABLED) check-modelviewer check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet book readme
 IN_board    := $(MACHINES)
 IN_board-arm64 := $(MACHINES)
 IN_gpus     := check-gpus accept full
@@ -169,7 +171,7 @@ LIBS    += $(MESHOPT)
 unused  := $(without) src/scene/gltf/$(if $(MESHOPT),meshopt_none.c,meshopt.c) src/bake/$(if $(MESHOPT),reorder_none.c,reorder.c) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/import/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
-PROG_C  := $(foreach d,unit plan image fuzz kms angle modelviewer tangents,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
+PROG_C  := $(foreach d,unit plan image fuzz kms angle modelviewer fidelity tangents,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
 TESTLIB := $(B)/libgntest.a
@@ -364,6 +366,9 @@ truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$< $(if $(CSV),--csv $(CSV))
 swim: $(B)/tests/tool_swim $(BIN)
 	$<
+models: $(B)/tests/tool_models $(BIN)
+	@mkdir -p $(O)/models
+	GNOMON=$(BIN) $< ../shared/assets $(O)/models $(SHADOW)
 # GN_UPDATE=1: writes the hashes of what was made
 benchmark-scenes: $(B)/tests/tool_benchmark $(O)/host/make_truth
 	BUILD=$(B) $< scenes assets/benchmark
