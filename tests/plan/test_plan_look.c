@@ -35,6 +35,7 @@ static void test_mean_plan(void **state) {
     gn_plan_begin(&f, GN_EVERY_CAP);
     f.opts.cover.mean = 0.5f;
     f.opts.cover.mean_of = 3;
+    f.opts.cover.dimmed = 0.25f; /* after it, as captions are */
     gn_plan_expect(gn_plan_make(&f), "mean-over");
     gn_plan_end(&f);
 }

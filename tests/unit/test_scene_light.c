@@ -299,6 +299,30 @@ static void assert_framed(const struct gn_scene *scene) {
     gn_pose_finish(&pose);
 }
 
+static void test_lights_may_stand_aside(void **state) {
+    (void)state;
+    static const float aside[2][3] = {{1, 2, 3}, {0.75f, 0, 9}}; /* metres; tangents */
+    gn_maker_set(&maker, "extensions",
+                 "{'KHR_lights_punctual':{'lights':[{'type':'spot'},{'type':'directional'}]}}");
+    gn_maker_set(&maker, "nodes",
+                 "[{'mesh':0},{'translation':[0,4,0],"
+                 "'extensions':{'KHR_lights_punctual':{'light':0}}},"
+                 "{'extensions':{'KHR_lights_punctual':{'light':1}}}]");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2]}]");
+    struct gn_scene *scene = load();
+    struct gn_pose pose;
+    vec3 position, direction;
+    gn_pose_init(&pose, scene, GN_POSE_NONE);
+    pose.lights_aside = aside;
+    gn_pose_light(&pose, 0, position, direction);
+    assert_true(position[0] == 1 && position[1] == 6 && position[2] == 3 && direction[2] == -1);
+    gn_pose_light(&pose, 1, position, direction);
+    assert_true(position[0] == 0 && position[1] == 0 && position[2] == 0);
+    assert_true(fabsf(direction[2] + 0.8f) < 1e-6f && fabsf(glm_vec3_norm(direction) - 1) < 1e-6f);
+    gn_pose_finish(&pose);
+    gn_scene_destroy(scene);
+}
+
 static void test_made_camera_and_light(void **state) {
     (void)state;
     static const char child[] =
@@ -336,6 +360,7 @@ int main(void) {
         cmocka_unit_test_setup(test_planes_are_found_where_shadows_fall, setup),
         cmocka_unit_test_setup(test_planes_named_apart_are_several, setup),
         cmocka_unit_test_setup(test_cameras, setup),
+        cmocka_unit_test_setup(test_lights_may_stand_aside, setup),
         cmocka_unit_test_setup(test_made_camera_and_light, setup),
     };
     return RUN(tests);
