@@ -83,9 +83,9 @@ static bool share_shown(struct gn_show_screen *s) {
         GN_LIGHT_SET(own, map_format, GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
     }
     /* Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences" (2018): evenly spread */
-    const uint32_t part = point / GN_STILL_PART, in_part = point % GN_STILL_PART;
+    const uint32_t part = point / GN_STILL_PART, in_part = point % GN_STILL_PART, row = part / 4;
     opts->view.aside_px[0] = (float)((part % 4 + fmod(0.7548776662466927 * point, 1)) / 4 - 0.5);
-    opts->view.aside_px[1] = (float)((part / 4 + fmod(0.5698402909980532 * point, 1)) / 2 - 0.5);
+    opts->view.aside_px[1] = (float)((row + fmod(0.5698402909980532 * point, 1)) / 2 - 0.5);
     opts->gather.part = 1.0f / (float)(in_part + 1);
     opts->gather.whole = in_part == GN_STILL_PART - 1 ? 1.0f / (float)(part + 1) : 0.0f;
     return any;
