@@ -5,6 +5,7 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/memory.h"
 #include "kiosk/private.h"
 #include "shadow/lamp.h"
 #include "stage/occlusion.h"
@@ -107,13 +108,21 @@ static bool warm(struct gn_show_screen *s, struct gn_view *view, const struct gn
     }
 }
 
+/* The picture, its depth and two means take at most a sixteenth of the machine's memory. */
+static bool has_room(const struct gn_frame_output_opts *output) {
+    enum { BYTES = 3 * 8 + 4 };
+    const uint64_t pixels = (uint64_t)output->width_px * output->height_px;
+    return BYTES * pixels <= (gn_memory_total_mb() << 20) / 16;
+}
+
 /* The lights are at their places here: the exposure is chosen by the first plan. */
 static void prepare(struct gn_show_screen *s) {
     struct gn_show_still *t = &s->still;
     struct gn_frame_opts over = s->stage.shown.opts;
     over.cover.mean = 1.0f;
     over.cover.mean_of = GN_VIEW_STILL;
-    if (!(gn_gl_caps(s->stage.gl)->has & 1u << GN_CAP_RGBA16F) || !share_shown(s))
+    if (!(gn_gl_caps(s->stage.gl)->has & 1u << GN_CAP_RGBA16F) || !has_room(&over.output) ||
+        !share_shown(s))
         t->never = true;
     else
         t->prepared = warm(s, &t->view, &t->view.opts) && warm(s, &s->stage.shown, &over);

@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "core/clock.h"
+#include "core/memory.h"
 #include "gl/private.h"
 #include "image/fine.h"
 #include "kiosk/private.h"
@@ -172,6 +173,15 @@ static void hard_shadows_stay(void **state) {
         assert_true(gn_still_due_ns(&show->screen) == INT64_MAX);
         gn_show_close(show);
     }
+    const uint64_t whole_mb = gn_memory_total_mb();
+    const int64_t until_ns = gn_clock_monotonic_ns() + PATIENCE_NS;
+    struct gn_show *show = open_kiosk(GN_FINE_SPOT, "cone", "auto");
+    gn_memory_pretend_mb(2); /* no room for means */
+    while (!show->screen.still.never && gn_clock_monotonic_ns() < until_ns) wait_ms(show, 100);
+    assert_true(show->screen.still.never);
+    assert_int_equal(show->screen.still.points, 0);
+    gn_show_close(show);
+    gn_memory_pretend_mb(whole_mb);
 }
 
 static int end(void **state) {
