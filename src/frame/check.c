@@ -33,7 +33,7 @@ static const char *check_draw(const struct gn_plan *plan, const struct gn_pass *
     REQUIRE((key->kind == GN_PROGRAM_FLAT) == picture->only_stencil);
     REQUIRE(caption || mean ||
             (key->kind == GN_PROGRAM_ENCODE) == (pass->target.kind == GN_TARGET_ENCODED));
-    REQUIRE(mean == (picture->mean_of || pass->target.kind == GN_TARGET_MEAN));
+    REQUIRE(mean == gn_pass_is_mean(pass));
     REQUIRE(caption || !picture->reads_atlas);
     REQUIRE(adds == (picture->blend == GN_BLEND_ADD));
     const uint64_t tint = GN_FEATURE(TINTED) | GN_FEATURE(UNLIT);

@@ -231,6 +231,11 @@ struct gn_pass {
     };
 };
 
+/* A picture as a whole: into a mean, or a mean over the picture. */
+static inline bool gn_pass_is_mean(const struct gn_pass *pass) {
+    return pass->target.kind == GN_TARGET_MEAN || pass->picture.mean_of > 0;
+}
+
 /* What is behind sampler i: plan->shadows[..]. */
 static inline uint32_t gn_pass_slot(const struct gn_pass_picture *picture, uint32_t i) {
     const uint32_t maps = picture->shadow_count - picture->plane_count;

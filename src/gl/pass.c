@@ -79,10 +79,9 @@ void gn_gl_pass_begin(struct gn_gl *gl, const struct gn_pass *pass, GLuint frame
             ? gl_rect(&pass->rect)
             : (struct gn_gl_rect){border, border, width - 2 * border, height - 2 * border};
     gn_gl_set_scissor(gl, pass->rect.width > 0 || border > 0 ? &inner : NULL);
-    gn_gl_set_depth(gl,
-                    pass->target.kind != GN_TARGET_ENCODED && pass->target.kind != GN_TARGET_MEAN &&
-                        pass->kind != GN_PASS_FILTER && !only_stencil,
-                    pass->depth_write);
+    const bool covers_all = pass->target.kind == GN_TARGET_ENCODED ||
+                            pass->kind == GN_PASS_FILTER || (picture && gn_pass_is_mean(pass));
+    gn_gl_set_depth(gl, !covers_all && !only_stencil, pass->depth_write);
     gn_gl_set_color_write(gl, !only_stencil);
     gn_gl_set_stencil(gl, picture ? &picture->stencil : &no_stencil);
     const bool subtracts = pass->kind == GN_PASS_MAP && pass->map.point_count > 0;

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/arena.h"
 #include "core/hash.h"
 
 /* The drivers' words for a stage, and ours. Vertex shaders are compiled twice: once for where
@@ -123,4 +124,18 @@ bool gn_cost_find(const char *path, uint64_t hash, struct gn_cost *cost) {
     }
     if (file) fclose(file);
     return gn_cost_is_whole(cost);
+}
+
+bool gn_keys_have(const struct gn_keys *keys, const struct gn_program_key *key) {
+    for (uint32_t i = 0; i < keys->count; i++)
+        if (memcmp(&keys->at[i], key, sizeof *key) == 0) return true;
+    return false;
+}
+
+void gn_keys_add(struct gn_keys *keys, const struct gn_program_key *key) {
+    if (keys->count == keys->room) {
+        keys->room = keys->room ? 2 * keys->room : 64;
+        keys->at = gn_xrealloc(keys->at, keys->room, sizeof *keys->at);
+    }
+    keys->at[keys->count++] = *key;
 }

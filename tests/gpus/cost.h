@@ -33,4 +33,12 @@ bool gn_cost_hash(const struct gn_gl *gl, const struct gn_plan *plan,
 /* What a file of an earlier run has of the program with that hash; path may be NULL. */
 bool gn_cost_find(const char *path, uint64_t hash, struct gn_cost *cost);
 
+/* Keys of programs; it grows, and is never freed. */
+struct gn_keys {
+    struct gn_program_key *at;
+    uint32_t count, room;
+};
+bool gn_keys_have(const struct gn_keys *keys, const struct gn_program_key *key);
+void gn_keys_add(struct gn_keys *keys, const struct gn_program_key *key);
+
 #endif

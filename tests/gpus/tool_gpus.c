@@ -27,8 +27,7 @@ struct bench {
     struct gn_display display;
     struct gn_gl *gl;
     struct gn_listener listener;
-    struct gn_program_key *seen; /* drawn with, and its cost printed */
-    uint32_t seen_count, seen_room;
+    struct gn_keys seen; /* drawn with, and its cost printed */
     unsigned plans, compiled, failures;
     uint32_t kinds, targets, outputs; /* bits of what was there */
 };
@@ -48,20 +47,6 @@ static bool fail(struct bench *b, const char *what, const char *why) {
 /* ---- programs, of which a plan may be to test some only ------------------------------------- */
 
 enum what { EVERYTHING, ALL_BUT_LIT, NO_PROGRAM };
-
-static bool is_seen(const struct bench *b, const struct gn_program_key *key) {
-    for (uint32_t i = 0; i < b->seen_count; i++)
-        if (memcmp(&b->seen[i], key, sizeof *key) == 0) return true;
-    return false;
-}
-
-static void note_seen(struct bench *b, const struct gn_program_key *key) {
-    if (b->seen_count == b->seen_room) {
-        b->seen_room = b->seen_room ? 2 * b->seen_room : 64;
-        b->seen = gn_xrealloc(b->seen, b->seen_room, sizeof *b->seen);
-    }
-    b->seen[b->seen_count++] = *key;
-}
 
 static bool is_drawn(const struct gn_plan *plan, uint32_t program) {
     for (uint32_t i = 0; i < plan->draw_count; i++)
@@ -97,7 +82,7 @@ static bool measure(struct bench *b, const struct gn_plan *plan, uint32_t index)
     char name[200];
     const struct gn_program_key *key = &plan->programs[index];
     gn_gl_key_text(key, name, sizeof name);
-    note_seen(b, key);
+    gn_keys_add(&b->seen, key);
     b->kinds |= 1u << key->kind;
     const bool known = gn_cost_hash(b->gl, plan, key, &hash) && gn_cost_find(b->known, hash, &cost);
     if (!known && !compile(b, plan, index, name, &cost)) return false;
@@ -116,7 +101,7 @@ static bool measure_new(struct bench *b, const struct gn_plan *plan, enum what w
     bool ok = true;
     for (uint32_t i = 0; i < plan->program_count; i++)
         if (is_wanted(what, &plan->programs[i]) && is_drawn(plan, i) &&
-            !is_seen(b, &plan->programs[i]))
+            !gn_keys_have(&b->seen, &plan->programs[i]))
             ok = measure(b, plan, i) && ok;
     return ok;
 }
@@ -183,10 +168,10 @@ static struct gn_frame_opts opts_of(enum gn_technique technique, enum gn_encodin
 
 static bool has_program(const struct bench *b, enum gn_light_type type, enum gn_technique technique,
                         enum gn_encoding encoding) {
-    for (uint32_t i = 0; i < b->seen_count; i++) {
-        const struct gn_light_key *light = &b->seen[i].lights[0];
-        const bool shadowed = b->seen[i].shadow_count > 0 || technique == GN_TECHNIQUE_NONE;
-        if (b->seen[i].kind == GN_PROGRAM_LIT && b->seen[i].light_count == 1 && shadowed &&
+    for (uint32_t i = 0; i < b->seen.count; i++) {
+        const struct gn_light_key *light = &b->seen.at[i].lights[0];
+        const bool shadowed = b->seen.at[i].shadow_count > 0 || technique == GN_TECHNIQUE_NONE;
+        if (b->seen.at[i].kind == GN_PROGRAM_LIT && b->seen.at[i].light_count == 1 && shadowed &&
             light->type == type && light->technique == technique &&
             (technique == GN_TECHNIQUE_NONE ||
              light->encoding == gn_encoding_of_programs(encoding)))
@@ -284,6 +269,18 @@ static void try_tones(struct bench *b, const struct stage *s, enum what wanted) 
         }
 }
 
+/* A picture into a mean, and that over another view's picture. */
+static void try_mean(struct bench *b, const struct stage *s, struct gn_frame_opts opts) {
+    opts.number = 1;
+    opts.gather.part = opts.gather.whole = 0.5f;
+    draw(b, s, &opts, ALL_BUT_LIT, "gather");
+    opts.number = 0;
+    opts.gather.part = 0;
+    opts.cover.mean = 0.5f;
+    opts.cover.mean_of = 1;
+    draw(b, s, &opts, ALL_BUT_LIT, "mean");
+}
+
 /* Bytes that the target encodes, bytes that shaders do, bytes that nobody does, floats; with
  * samples, and with a stencil. */
 static void try_outputs(struct bench *b, const struct stage *s, enum what wanted) {
@@ -302,6 +299,7 @@ static void try_outputs(struct bench *b, const struct stage *s, enum what wanted
                 opts.output.floats = form == 3;
                 b->gl->targets.wants_stencil = false;
                 if (draw(b, s, &opts, wanted, what) && form < 2) lay_over(b, what);
+                if (form < 2 && msaa == 0 && !planar) try_mean(b, s, opts);
             }
 }
 
@@ -493,7 +491,7 @@ int main(int argc, char **argv) {
     }
     printf("DONE\t%u programs, %u of them compiled, %u plans, %u framebuffers, %u incomplete, %u "
            "errors, %u failures\n",
-           b.seen_count, b.compiled, b.plans, b.listener.framebuffers, b.listener.incomplete,
+           b.seen.count, b.compiled, b.plans, b.listener.framebuffers, b.listener.incomplete,
            b.listener.errors, b.failures);
     fflush(NULL);
     _Exit(b.failures > 0); /* no driver here is tested for how it ends */
