@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet \
+.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet \
         lessons book readme options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
@@ -31,6 +31,8 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make check-gpus every program on the compilers of GPUs that are not here, and its cost
 #: make check-modelviewer
 #:                 colours against model-viewer in Chromium, by npm, on the models of ../shared/assets
+#: make check-cycles
+#:                 models against Blender's Cycles, and model-viewer's; LIGHTS="FILE.hdr STOPS .."
 #: make check-tangents
 #:                 tangents against the reference algorithm, by npm
 #: make truth      shadows against ray-traced truth, as a table; CSV=FILE: as CSV, too
@@ -72,8 +74,8 @@ dist:
 
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
 MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
-TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-tangents,$(filter check check-% accept full,$(GOALS)))
-IN_test     := $(TABLED) check-modelviewer check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet book readme
+TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-cycles check-tangents,$(filter check check-% accept full,$(GOALS)))
+IN_test     := $(TABLED) check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet book readme
 IN_board    := $(MACHINES)
 IN_board-arm64 := $(MACHINES)
 IN_gpus     := check-gpus accept full
@@ -171,7 +173,7 @@ LIBS    += $(MESHOPT)
 unused  := $(without) src/scene/gltf/$(if $(MESHOPT),meshopt_none.c,meshopt.c) src/bake/$(if $(MESHOPT),reorder_none.c,reorder.c) $(addprefix src/input/,$(filter-out $(GPIO_C),gpiod1.c gpiod2.c gpio_none.c))
 SRC     := $(filter-out $(unused) src/import/%,$(sort $(wildcard src/*/*.c src/*/*/*.c)))
 TESTS_C := $(sort $(filter-out tests/board/% tests/gpus/% tests/import/% tests/angle/strict.c,$(wildcard tests/*/*.c)))
-PROG_C  := $(foreach d,unit plan image fuzz kms angle modelviewer fidelity tangents,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
+PROG_C  := $(foreach d,unit plan image fuzz kms angle modelviewer cycles fidelity tangents,$(filter tests/$d/test_% tests/$d/tool_%,$(TESTS_C)))
 PROGS   := $(addprefix $(B)/tests/,$(notdir $(PROG_C:.c=)))
 LIB     := $(B)/libgnomon.a
 TESTLIB := $(B)/libgntest.a
@@ -345,6 +347,8 @@ check-gpus:
 	@tests/run.sh BUILD=$(O)/aarch64-linux-gnu-debug tests/gpus/gpus.sh
 check-modelviewer: $(BIN) $(B)/tests/tool_modelviewer $(B)/tests/tool_sheet $(O)/host/make_studio
 	GNOMON=$(BIN) BUILD=$(B) tests/modelviewer/modelviewer.sh
+check-cycles: $(BIN) $(B)/tests/tool_cycles $(O)/host/make_studio
+	GNOMON=$(BIN) BUILD=$(B) tests/cycles/cycles.sh $(LIGHTS)
 check-tangents: $(B)/tests/tool_tangents
 	BUILD=$(B) tests/tangents/tangents.sh
 # the table of keys in src/options/README.md

@@ -1,6 +1,7 @@
 // modelviewer.mjs PACKAGE ASSETS HDR OUT CHROMIUM SIZE LIST: serves modelviewer.html, model-viewer, the environment and the
 // models to a headless Chromium, which draws each model and sends the picture and its camera back. Writes OUT/NAME-there.png,
 // OUT/NAME.camera (options of gnomon), and OUT/NAME.glb: a binary model that has lights or cameras without them, or a chart.
+// TONE (neutral) and EXPOSURE (1) are model-viewer's.
 import { spawn } from 'node:child_process';
 import fs from 'node:fs';
 import http from 'node:http';
@@ -91,7 +92,7 @@ server.listen(0, '127.0.0.1', () => {
     browser = spawn(chromium, ['--headless=new', '--no-sandbox', '--disable-gpu-sandbox', '--use-gl=angle',
         '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--no-first-run',
         '--force-device-scale-factor=1', '--window-size=1600,1200', `--user-data-dir=${profile}`,
-        `http://127.0.0.1:${server.address().port}/modelviewer.html?size=${size}&models=${encodeURIComponent(JSON.stringify(asked))}`],
+        `http://127.0.0.1:${server.address().port}/modelviewer.html?size=${size}&tone=${process.env.TONE ?? 'neutral'}&exposure=${process.env.EXPOSURE ?? 1}&models=${encodeURIComponent(JSON.stringify(asked))}`],
         { stdio: 'ignore' });
     browser.on('exit', (status) => { if (process.exitCode === undefined) end(1, `modelviewer: ${chromium} ended with status ${status}`); });
 });
