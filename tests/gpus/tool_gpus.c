@@ -299,7 +299,7 @@ static void try_outputs(struct bench *b, const struct stage *s, enum what wanted
                 opts.output.floats = form == 3;
                 b->gl->targets.wants_stencil = false;
                 if (draw(b, s, &opts, wanted, what) && form < 2) lay_over(b, what);
-                if (form < 2 && msaa == 0 && !planar) try_mean(b, s, opts);
+                if (wanted == EVERYTHING && form < 2 && msaa == 0 && !planar) try_mean(b, s, opts);
             }
 }
 
