@@ -8,6 +8,7 @@
 #include "core/memory.h"
 #include "kiosk/private.h"
 #include "shadow/lamp.h"
+#include "stage/lights.h"
 #include "stage/occlusion.h"
 
 static const int64_t REST_NS = GN_NS_PER_S * 3 / 10; /* a view that is so old has come to rest */
@@ -44,15 +45,6 @@ int64_t gn_still_due_ns(const struct gn_show_screen *s) {
 
 /* ---- the view that gathers ---- */
 
-static struct gn_light_opts *own_opts(struct gn_frame_shadow_opts *shadow, uint32_t light) {
-    uint32_t at = 0;
-    while (at < shadow->light_count && shadow->lights[at].light != light) at++;
-    if (at == GN_ALL_LIGHTS_MAX) return NULL;
-    if (at == shadow->light_count)
-        shadow->lights[shadow->light_count++] = (struct gn_light_opts){.light = light};
-    return &shadow->lights[at];
-}
-
 /* The shown view with hard shadows of those lights that have soft ones, from one point of each.
  * False: no light has. */
 static bool share_shown(struct gn_show_screen *s) {
@@ -76,7 +68,7 @@ static bool share_shown(struct gn_show_screen *s) {
         const struct gn_technique_row *row = &gn_techniques[holds.technique];
         const bool soft = row->soft && !row->on_plane && !row->on_screen && holds.radius > 0.0f &&
                           holds.on && scene->lights[i].slide < 0;
-        struct gn_light_opts *own = soft ? own_opts(&opts->shadow, i) : NULL;
+        struct gn_light_opts *own = soft ? gn_stage_light_entry(&opts->shadow, i) : NULL;
         for (int k = 0; k < 3; k++) t->aside[i][k] = own ? holds.radius * place[k] : 0.0f;
         if (!own) continue;
         any = true;

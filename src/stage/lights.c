@@ -14,8 +14,7 @@ bool gn_light_section_is_of(const struct gn_section *section, const struct gn_sc
            strcmp(section->name, l->name) == 0;
 }
 
-/* The entry of that light; NULL: no room. */
-static struct gn_light_opts *find_entry(struct gn_frame_shadow_opts *opts, uint32_t light) {
+struct gn_light_opts *gn_stage_light_entry(struct gn_frame_shadow_opts *opts, uint32_t light) {
     uint32_t i = 0;
     while (i < opts->light_count && opts->lights[i].light != light) i++;
     if (i == GN_ALL_LIGHTS_MAX) return NULL;
@@ -81,7 +80,7 @@ static void set_all(struct gn_frame_shadow_opts *opts, const struct gn_settings 
             (of_made && !scene->added.light))
             continue;
         struct gn_light_opts *entry =
-            of_made ? find_entry(opts, scene->light_count - 1) : &opts->any;
+            of_made ? gn_stage_light_entry(opts, scene->light_count - 1) : &opts->any;
         if (entry) set_entry(entry, row, value);
     }
 }
@@ -139,7 +138,7 @@ void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_sett
         for (uint32_t i = 0; i < scene->light_count; i++) {
             if (!gn_light_section_is_of(section, scene, i)) continue;
             found = true;
-            struct gn_light_opts *entry = find_entry(opts, i);
+            struct gn_light_opts *entry = gn_stage_light_entry(opts, i);
             if (!entry) {
                 gn_warn(warnings, "%s: settings for more than %d lights: some do without",
                         section->label, GN_ALL_LIGHTS_MAX);
@@ -156,7 +155,7 @@ void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_sett
 
 void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *scene,
                       const struct gn_environment_key *key, float strength) {
-    struct gn_light_opts *entry = find_entry(opts, scene->light_count - 1);
+    struct gn_light_opts *entry = gn_stage_light_entry(opts, scene->light_count - 1);
     if (!entry) return;
     GN_LIGHT_SET(entry, radius, key->radius);
     entry->given |= GN_LIGHT_GIVEN(color);

@@ -10,6 +10,8 @@
 /* Whether the section is of that light: by the name of its node, or its own. */
 bool gn_light_section_is_of(const struct gn_section *section, const struct gn_scene *scene,
                             uint32_t light);
+/* The entry of that light in opts->lights, made where there is none; NULL: no room. */
+struct gn_light_opts *gn_stage_light_entry(struct gn_frame_shadow_opts *opts, uint32_t light);
 /* Fills opts->any and opts->lights, by the rows of the table that have a target. A section that is
  * of no light gives a warning, unless there are other scenes.
  */
