@@ -28,18 +28,10 @@ static void draw_frame(struct gn_show *show) {
     }
 }
 
-static void until_warm(struct gn_show *show) {
-    const int64_t begun_ns = gn_clock_process_cpu_ns();
-    do {
-        help_show_step(show);
-        assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
-    } while (show->counts.frames == 0 || gn_show_has_work(&show->screen));
-}
-
 /* Until no frame is wanted any more. */
 static void until_still(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
-    until_warm(show);
+    help_show_until_warm(show);
     while (!show->screen.stage.display.screen.may_draw || gn_show_wants_frame(&show->screen)) {
         help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
@@ -95,7 +87,7 @@ static void the_same_clip_anew_or_at_another_speed_fades(void **state) {
     struct gn_show *show = open_show("[scene]\ntime = 3\n[mode \"A\"]\nshadow = pcf\n"
                                      "[mode \"B\"]\nshadow = pcf\nanimation_speed = .6\n"
                                      "[kiosk]\ncaptions = no\nclip_fade = 5\n");
-    until_warm(show);
+    help_show_until_warm(show);
     draw_frame(show);
     assert_true(show->screen.stage.pose.at.fade == 1);
     double before = pose_sum(show);
@@ -118,7 +110,7 @@ static void settings_that_change_start_no_clip_again(void **state) {
     (void)state;
     struct gn_show *show = open_show("[mode \"A\"]\nshadow = pcf\n"
                                      "[kiosk]\ncaptions = no\nclip_fade = 5\n");
-    until_warm(show);
+    help_show_until_warm(show);
     play_past_its_fade(show);
     for (int i = 0; i < 20; i++) {
         gn_show_enter(&show->screen);
@@ -140,7 +132,7 @@ static void a_mode_that_restarts_begins_its_clips(void **state) {
                                      "[mode \"B\"]\nshadow = pcf\nanimation_restart = yes\n"
                                      "animation_loop = once\nanimation_start = 1\n"
                                      "[kiosk]\ncaptions = no\nclip_fade = 0\n");
-    until_warm(show);
+    help_show_until_warm(show);
     show->screen.kiosk.scene_ns += 1000 * GN_NS_PER_S;
     act(show, GN_ACTION_NEXT, NULL);
     while (show->screen.drawn.mode != 1) draw_frame(show);

@@ -96,15 +96,6 @@ static struct gn_show *open_show(const char *scene) {
     return help_show_begun((const char *const[]){"--size", "64x64", "-c", config, NULL});
 }
 
-static void frames(struct gn_show *show, unsigned count) {
-    const uint64_t end = show->counts.frames + count;
-    const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (show->counts.frames < end) {
-        help_show_step(show);
-        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
-    }
-}
-
 static bool is_shown(const struct gn_show *show, const char *scene) {
     return !show->reload.options &&
            strcmp(show->scenes.paths[show->screen.drawn.scene], scene) == 0;
@@ -122,11 +113,11 @@ static void frames_go_on_during_a_reload_and_a_later_one_replaces_it(void **stat
     (void)state;
     write_importer(false);
     struct gn_show *show = open_show(good);
-    frames(show, 2);
+    help_show_frames(show, 2);
     write_config(in_folder("slow.obj"));
     show->reloads = true;
     wait_for_importer(show);
-    frames(show, 20);
+    help_show_frames(show, 20);
     assert_non_null(show->reload.options);
     assert_int_equal(gn_loader_number(show->scenes.loader), GN_SHOW_RELOAD);
     assert_string_equal(show->scenes.paths[show->screen.drawn.scene], good);
@@ -136,7 +127,7 @@ static void frames_go_on_during_a_reload_and_a_later_one_replaces_it(void **stat
     show->reloads = true;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!is_shown(show, other)) {
-        frames(show, 1);
+        help_show_frames(show, 1);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     assert_false(importer_runs());
@@ -160,12 +151,12 @@ static void wait_for_staging(struct gn_show *show) {
 static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     (void)state;
     struct gn_show *show = open_show(good);
-    frames(show, 2);
+    help_show_frames(show, 2);
     const struct gn_gl *gl = show->screen.stage.gl;
     write_config(write_huge());
     show->reloads = true;
     wait_for_staging(show);
-    frames(show, 20); /* a megabyte in each */
+    help_show_frames(show, 20); /* a megabyte in each */
     assert_true(gn_show_reload_is_staged(&show->screen));
     assert_string_equal(show->scenes.paths[show->screen.drawn.scene], good);
 
@@ -174,7 +165,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     gn_show_act(&show->screen, &b, gn_clock_monotonic_ns());
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!is_shown(show, in_folder("huge.gltf"))) {
-        frames(show, 1);
+        help_show_frames(show, 1);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
     assert_string_equal(show->modes.names[show->screen.kiosk.shown.mode], "B");
@@ -187,7 +178,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     show->reload.alone = true;
     help_show_step(show);
     assert_null(show->reload.options);
-    frames(show, 2);
+    help_show_frames(show, 2);
     assert_true(is_shown(show, good));
 
     /* one that is not complete yet is dropped for a later one */
@@ -204,7 +195,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
 static void a_bad_reload_keeps_the_scene(void **state) {
     (void)state;
     struct gn_show *show = open_show(good);
-    frames(show, 2);
+    help_show_frames(show, 2);
     help_write(folder, "bad.glb", "this is no scene");
     write_config(in_folder("bad.glb"));
     show->reloads = true;
@@ -215,7 +206,7 @@ static void a_bad_reload_keeps_the_scene(void **state) {
     }
     assert_non_null(strstr(show->config.error, "kiosk.ini:2: file: "));
     assert_non_null(strstr(show->config.error, "bad.glb: byte 0"));
-    frames(show, 2);
+    help_show_frames(show, 2);
     assert_true(is_shown(show, good));
     gn_show_close(show);
 }
@@ -226,7 +217,7 @@ static void the_first_picture_does_not_wait_for_the_first_scene(void **state) {
     const int64_t begun_ns = gn_clock_monotonic_ns();
     struct gn_show *show = open_show(in_folder("slow.obj"));
     assert_true(show->reload.first);
-    frames(show, 1);
+    help_show_frames(show, 1);
     assert_true(show->reload.first || gn_clock_monotonic_ns() - begun_ns > 2 * GN_NS_PER_S);
     write_config(other);
     show->reloads = true; /* after the first load */
@@ -261,7 +252,7 @@ static void a_first_scene_that_fails_late_is_replaced_by_the_last_good_one(void 
         help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
     }
-    frames(show, 2);
+    help_show_frames(show, 2);
     assert_true(is_shown(show, other));
     assert_non_null(strstr(show->config.error, "slow.obj: "));
     assert_non_null(strstr(show->config.error, " (showing the last good scene)"));
@@ -281,7 +272,7 @@ static void no_bar_is_waited_for_without_a_lit_screen(void **state) {
     write_importer(false);
     struct gn_show *show = open_show(in_folder("slow.obj"));
     bool *lit = &show->screen.stage.display.screen.lit, *dark = &show->screen.drawn.dark;
-    frames(show, 1);
+    help_show_frames(show, 1);
     assert_true(gn_show_bar_due_ns(&show->screen) < INT64_MAX);
     *lit = false;
     assert_true(gn_show_bar_due_ns(&show->screen) == INT64_MAX);
@@ -294,7 +285,7 @@ static void the_end_does_not_wait_for_the_first_scene(void **state) {
     (void)state;
     write_importer(false);
     struct gn_show *show = open_show(in_folder("slow.obj"));
-    frames(show, 1);
+    help_show_frames(show, 1);
     const int64_t begun_ns = gn_clock_monotonic_ns();
     gn_show_close(show);
     while (importer_runs()) {

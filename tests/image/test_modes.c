@@ -10,7 +10,6 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
-#include "core/memory.h"
 #include "gl/private.h"
 #include "kiosk/private.h"
 #include "unit/gl_help.h"
@@ -23,34 +22,11 @@ enum { SIDE = 64, PIXELS = SIDE * SIDE };
     help_show((const char *const[]){"--size", "64x64", "--limit", "ahead_percent=100000",          \
                                     __VA_ARGS__, NULL})
 
-/* Frames, at most a minute's. */
-static void frames(struct gn_show *show, unsigned count) {
-    const uint64_t end = show->counts.frames + count;
-    const int64_t begun_ns = gn_clock_monotonic_ns();
-    while (show->counts.frames < end) {
-        help_show_step(show);
-        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
-    }
-}
-
 /* And wakes it, as what a button is behind would. */
 static void act(struct gn_show *show, enum gn_action_kind kind) {
     static const uint64_t one = 1;
     gn_show_act(&show->screen, &(struct gn_action){.kind = kind}, gn_clock_monotonic_ns());
     assert_int_equal(write(gn_loader_fd(show->scenes.loader), &one, sizeof one), sizeof one);
-}
-
-static void until_warm(struct gn_show *show) {
-    const int64_t begun_ns = gn_clock_process_cpu_ns();
-    do {
-        help_show_step(show);
-        assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
-    } while (show->counts.frames == 0 || gn_show_has_work(&show->screen));
-}
-
-static void read_picture(struct gn_show *show, uint8_t out[4 * PIXELS]) {
-    struct gn_err err = {0};
-    if (!gn_gl_read_rgba8(show->screen.stage.gl, out, &err)) fail_msg("%s", err.text);
 }
 
 /* ---- modes ---- */
@@ -64,7 +40,7 @@ static uint64_t map_bytes(const struct gn_show *show) {
 static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--no-animation", "--turntable", "10");
-    frames(show, 1);
+    help_show_frames(show, 1);
     const uint64_t shown_bytes = map_bytes(show);
     assert_true(shown_bytes > 1000000);
     const int64_t begun_ns = gn_clock_process_cpu_ns();
@@ -92,11 +68,11 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     const bool full = getenv("GN_FULL");
     const int switches = full ? 1000 : 120, ahead = full ? 240 : 120;
     struct gn_show *show = OPEN("--turntable", "240");
-    until_warm(show);
+    help_show_until_warm(show);
     size_t most = 0, least = SIZE_MAX;
     for (int i = 0; i < ahead; i++) { /* from all sides: lists have grown, and maps have pages */
         act(show, GN_ACTION_NEXT);
-        frames(show, 1);
+        help_show_frames(show, 1);
         const size_t now = mallinfo2().uordblks;
         most = now > most ? now : most;
     }
@@ -106,7 +82,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     for (int i = 0; i < switches; i++) {
         const int next = (show->screen.kiosk.shown.mode + 1) % show->modes.count;
         act(show, GN_ACTION_NEXT);
-        frames(show, 1);
+        help_show_frames(show, 1);
         assert_int_equal(show->screen.drawn.mode, next);
         const struct gn_light_opts *any = &show->screen.stage.shown.opts.shadow.any;
         assert_string_equal(
@@ -123,52 +99,10 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     gn_show_close(show);
 }
 
-static int by_size(const void *a, const void *b) {
-    const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
-    return x < y ? -1 : x > y;
-}
-
-/* CPU time of a frame, with that of the threads that draw for us. */
-static int64_t frame_ns(struct gn_show *show) {
-    const int64_t begun_ns = gn_clock_process_cpu_ns();
-    frames(show, 1);
-    gn_gl_wait(show->screen.stage.gl);
-    return gn_clock_process_cpu_ns() - begun_ns;
-}
-
-/* Of all pairs of neighbours: a switch draws its frame and, at most, its maps. Of
- * three rounds the quickest switch counts, since whatever else the machine does only adds. */
-static void a_switch_takes_no_more_than_two_frames(void **state) {
-    (void)state;
-    enum { ROUNDS = 3, STEADY = 3 };
-    struct gn_show *show = OPEN("--size", "640x360", "--turntable", "10");
-    int64_t switch_ns[GN_KIOSK_MODES_MAX], steady_ns[GN_KIOSK_MODES_MAX][ROUNDS * STEADY] = {{0}};
-    for (int m = 0; m < show->modes.count; m++) switch_ns[m] = INT64_MAX;
-    until_warm(show);
-    for (int i = 0; i < ROUNDS * show->modes.count; i++) {
-        const int round = i / show->modes.count;
-        act(show, GN_ACTION_NEXT);
-        const int64_t now_ns = frame_ns(show);
-        const int mode = show->screen.drawn.mode;
-        if (now_ns < switch_ns[mode]) switch_ns[mode] = now_ns;
-        for (int k = 0; k < STEADY; k++) steady_ns[mode][STEADY * round + k] = frame_ns(show);
-    }
-    int wrong = 0;
-    for (int m = 0; m < show->modes.count; m++) {
-        qsort(steady_ns[m], ROUNDS * STEADY, sizeof steady_ns[m][0], by_size);
-        const int64_t median_ns = steady_ns[m][ROUNDS * STEADY / 2];
-        print_message("%-8s %6.2f ms, then %6.2f ms\n", show->modes.names[m],
-                      (double)switch_ns[m] * 1e-6, (double)median_ns * 1e-6);
-        wrong += switch_ns[m] > 2 * median_ns;
-    }
-    assert_int_equal(wrong, 0);
-    gn_show_close(show);
-}
-
 static void what_is_not_ready_keeps_the_old_picture(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--turntable", "10");
-    frames(show, 1);
+    help_show_frames(show, 1);
     act(show, GN_ACTION_PREV); /* the last of the list: not made yet */
     const int wanted = show->screen.kiosk.wanted.mode;
     assert_int_equal(show->screen.looks.ready >> wanted & 1, 0);
@@ -190,7 +124,7 @@ static void what_is_not_ready_keeps_the_old_picture(void **state) {
 static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--no-animation");
-    frames(show, 1);
+    help_show_frames(show, 1);
     act(show, GN_ACTION_PREV);
     const int wanted = show->screen.kiosk.wanted.mode;
     const int64_t begun_ns = gn_clock_monotonic_ns();
@@ -201,56 +135,12 @@ static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
     gn_show_close(show);
 }
 
-/* What programs of other modes take, by dropping them, of all that is taken without. */
-static double share_of_idle(struct gn_show *show) {
-    const double with = (double)gn_memory_allocated();
-    gn_gl_drop_programs(show->screen.stage.gl, &(struct gn_gl_idle){0});
-    return with / (double)gn_memory_allocated() - 1;
-}
-
-static void programs_of_other_modes_are_within_their_share(void **state) {
-    (void)state;
-    static uint8_t before[4 * PIXELS], after[4 * PIXELS];
-    struct gn_show *show = OPEN("--limit", "ahead_percent=10", "--no-animation");
-    gn_memory_pretend_mb(1024); /* a board */
-    until_warm(show);
-    assert_int_equal(show->screen.looks.made, (1u << show->modes.count) - 1);
-    assert_int_equal(show->screen.looks.ready, 1u << show->screen.kiosk.shown.mode);
-    read_picture(show, before);
-    const double ahead = share_of_idle(show);
-    if (ahead > 0.1) fail_msg("%.1f %%", 100 * ahead);
-    uint64_t rounds[3] = {0};
-    for (int i = 0; i < 3 * show->modes.count; i++) {
-        uint64_t *most = &rounds[i / show->modes.count];
-        const int next = (show->screen.kiosk.shown.mode + 1) % show->modes.count;
-        const int64_t begun_ns = gn_clock_process_cpu_ns();
-        act(show, GN_ACTION_NEXT);
-        while (show->screen.drawn.mode != next) {
-            help_show_step(show);
-            assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
-        }
-        while (gn_show_has_work(&show->screen)) help_show_step(show);
-        const uint64_t all = gn_memory_allocated(),
-                       idle = gn_gl_idle_programs(show->screen.stage.gl).bytes,
-                       share = (gn_memory_total_mb() << 20) / 16;
-        assert_true(idle <= all - idle || idle <= share);
-        if (all > *most) *most = all;
-    }
-    assert_true(rounds[2] < rounds[1] + rounds[1] / 10);
-    show->screen.changed = true; /* without the caption of the last change */
-    while (show->screen.kiosk.caption || gn_show_wants_frame(&show->screen)) help_show_step(show);
-    read_picture(show, after);
-    assert_memory_equal(before, after, sizeof before);
-    gn_memory_pretend_mb(0);
-    gn_show_close(show);
-}
-
 static void flags_leave_one_technique(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--shadow", "hard");
     assert_int_equal(show->modes.count, 1);
     act(show, GN_ACTION_NEXT);
-    frames(show, 2);
+    help_show_frames(show, 2);
     assert_int_equal(show->screen.kiosk.shown.mode, 0);
     gn_show_close(show);
 }
@@ -258,9 +148,9 @@ static void flags_leave_one_technique(void **state) {
 static void the_page_names_the_scene_inside_the_program(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--shadow", "hard");
-    frames(show, 1);
+    help_show_frames(show, 1);
     act(show, GN_ACTION_INFO);
-    frames(show, 1);
+    help_show_frames(show, 1);
     if (!strstr(show->screen.text.page.text, "\nScene: default scene\n"))
         fail_msg("%s", show->screen.text.page.text);
     gn_show_close(show);
@@ -272,14 +162,14 @@ static void pause_stands_and_blank_is_dark(void **state) {
     (void)state;
     uint8_t before[4 * PIXELS], after[4 * PIXELS];
     struct gn_show *show = OPEN("--shadow", "pcf", "--turntable", "90");
-    until_warm(show);
-    frames(show, 2);
+    help_show_until_warm(show);
+    help_show_frames(show, 2);
     act(show, GN_ACTION_PAUSE);
     help_show_step(show);
     const int64_t stood_ns = show->screen.drawn.time_ns;
     while (show->screen.kiosk.caption || gn_show_wants_frame(&show->screen)) help_show_step(show);
     assert_int_equal(show->screen.drawn.time_ns, stood_ns);
-    read_picture(show, before);
+    help_show_picture(show, before);
     act(show, GN_ACTION_BLANK);
     help_show_step(show);
     assert_true(show->screen.stage.display.screen.blank);
@@ -290,7 +180,7 @@ static void pause_stands_and_blank_is_dark(void **state) {
     assert_false(show->screen.stage.display.screen.blank);
     assert_int_equal(show->screen.kiosk.camera, 0);
     assert_true(show->counts.frames - dark <= 1);
-    read_picture(show, after);
+    help_show_picture(show, after);
     assert_memory_equal(before, after, sizeof before);
     gn_show_close(show);
 }
@@ -306,17 +196,17 @@ static void a_fade_begins_with_the_old_picture(void **state) {
     snprintf(path, sizeof path, "%s/x/kiosk.ini", folder);
     struct gn_show *show = OPEN("--no-animation", "--fade", "10", "-c", path);
     assert_int_equal(show->modes.count, 2);
-    until_warm(show);
-    read_picture(show, old);
+    help_show_until_warm(show);
+    help_show_picture(show, old);
     act(show, GN_ACTION_NEXT); /* no shadows at all */
     while (show->screen.drawn.mode == show->modes.first) help_show_step(show);
-    read_picture(show, first);
+    help_show_picture(show, first);
     unsigned worst = 0, all = 0;
     show->screen.rules.fade_ns = 0; /* over */
     show->screen.kiosk.fade_begun_ns = 0;
     show->screen.changed = true;
-    frames(show, 1);
-    read_picture(show, none);
+    help_show_frames(show, 1);
+    help_show_picture(show, none);
     for (int i = 0; i < 4 * PIXELS; i++) {
         const unsigned d = (unsigned)abs(first[i] - old[i]), e = (unsigned)abs(none[i] - old[i]);
         worst = d > worst ? d : worst;
@@ -334,7 +224,7 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
     (void)state;
     struct gn_show *show =
         OPEN("assets/bench/s1.glb", "assets/sundial.glb", "--shadow", "pcf", "--turntable", "10");
-    until_warm(show);
+    help_show_until_warm(show);
     const char *name = show->screen.stage.scene->name;
     act(show, GN_ACTION_NEXT_SCENE);
     const int64_t begun_ns = gn_clock_monotonic_ns();
@@ -348,7 +238,7 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
     }
     assert_null(show->screen.staged.loaded);
     assert_int_equal(show->screen.stage.scene->triangle_count > 0, 1);
-    until_warm(show);
+    help_show_until_warm(show);
     act(show, GN_ACTION_NEXT_SCENE); /* and back */
     while (show->screen.drawn.scene == 1) help_show_step(show);
     gn_show_close(show);
@@ -362,7 +252,7 @@ static void a_bad_scene_changes_nothing(void **state) {
     snprintf(path, sizeof path, "%s/x/bad.glb", folder);
     struct gn_show *show =
         OPEN("assets/bench/s1.glb", path, "--shadow", "pcf", "--turntable", "10");
-    frames(show, 2);
+    help_show_frames(show, 2);
     act(show, GN_ACTION_NEXT_SCENE);
     assert_true(gn_kiosk_waits(&show->screen.kiosk));
     const int64_t begun_ns = gn_clock_monotonic_ns();
@@ -372,7 +262,7 @@ static void a_bad_scene_changes_nothing(void **state) {
     }
     assert_int_equal(show->screen.drawn.scene, 0);
     assert_non_null(strstr(gn_problem_last(&show->problems), "bad.glb"));
-    frames(show, 2);
+    help_show_frames(show, 2);
     gn_show_close(show);
     help_remove(folder);
 }
@@ -380,7 +270,7 @@ static void a_bad_scene_changes_nothing(void **state) {
 static void the_end_does_not_wait_for_a_scene(void **state) {
     (void)state;
     struct gn_show *show = OPEN("assets/bench/s1.glb", "assets/bench/s2.glb", "--shadow", "pcf");
-    frames(show, 1);
+    help_show_frames(show, 1);
     act(show, GN_ACTION_NEXT_SCENE);
     help_show_step(show);
     assert_true(gn_loader_is_busy(show->scenes.loader) || show->screen.staged.loaded);
@@ -394,10 +284,8 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_program_a_frame_is_made_ahead_and_no_more),
         cmocka_unit_test(a_switch_is_seen_in_the_next_frame_and_makes_nothing),
-        cmocka_unit_test(a_switch_takes_no_more_than_two_frames),
         cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
         cmocka_unit_test(a_still_picture_changes_when_the_mode_is_ready),
-        cmocka_unit_test(programs_of_other_modes_are_within_their_share),
         cmocka_unit_test(flags_leave_one_technique),
         cmocka_unit_test(the_page_names_the_scene_inside_the_program),
         cmocka_unit_test(pause_stands_and_blank_is_dark),

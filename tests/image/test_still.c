@@ -45,11 +45,6 @@ static struct gn_show *open_kiosk(int scene, const char *technique, const char *
     return show;
 }
 
-static void read_picture(const struct gn_show *show, uint8_t *out) {
-    struct gn_err err = {0};
-    if (!gn_gl_read_rgba8(show->screen.stage.gl, out, &err)) fail_msg("%s", err.text);
-}
-
 /* The largest difference between two pictures. */
 static int step_of(const uint8_t *a, const uint8_t *b) {
     int most = 0;
@@ -71,7 +66,7 @@ static void wait_for(struct gn_show *show, float share, uint8_t *picture, int *s
             fail_msg("%u points, share %.2f", still->points, (double)still->share);
         if (show->counts.frames == frames) continue;
         frames = show->counts.frames;
-        read_picture(show, next);
+        help_show_picture(show, next);
         const int changed = step_of(picture, next);
         if (changed > *step) *step = changed;
         memcpy(picture, next, sizeof next);
@@ -118,7 +113,7 @@ static void soft_shadows_converge_to_truth(void **state) {
                            &err))
             fail_msg("%s", err.text);
         struct gn_show *show = open_kiosk(rows[i].scene, rows[i].technique, "auto");
-        read_picture(show, picture);
+        help_show_picture(show, picture);
         const double before = error_of(picture, truth);
         wait_for(show, 1, picture, &step);
         const double after = error_of(picture, truth);
@@ -139,7 +134,7 @@ static void what_moves_is_the_techniques(void **state) {
     (void)state;
     struct gn_show *show = open_kiosk(GN_FINE_SPOT, "cone", "auto");
     struct gn_show_screen *s = &show->screen;
-    read_picture(show, first);
+    help_show_picture(show, first);
     memcpy(picture, first, sizeof first);
     wait_for(show, 1, picture, &step);
     assert_true(step_of(picture, first) > 3);

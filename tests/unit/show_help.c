@@ -3,12 +3,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "core/clock.h"
 #include "kiosk/private.h"
 #include "options/args.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
 
 enum { ARGUMENTS_MAX = 32 };
+#define PATIENCE_NS (60 * GN_NS_PER_S)
 
 struct gn_show *help_show_begun(const char *const more[]) {
     static struct gn_warnings warnings;
@@ -54,4 +56,26 @@ struct gn_show *help_show_of(const char *config, const char *const more[]) {
 void help_show_step(struct gn_show *show) {
     struct gn_err err = {0};
     if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+}
+
+void help_show_frames(struct gn_show *show, unsigned count) {
+    const uint64_t end = show->counts.frames + count;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (show->counts.frames < end) {
+        help_show_step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+    }
+}
+
+void help_show_until_warm(struct gn_show *show) {
+    const int64_t begun_ns = gn_clock_process_cpu_ns();
+    do {
+        help_show_step(show);
+        assert_true(gn_clock_process_cpu_ns() - begun_ns < 3 * PATIENCE_NS);
+    } while (show->counts.frames == 0 || gn_show_has_work(&show->screen));
+}
+
+void help_show_picture(const struct gn_show *show, uint8_t *out) {
+    struct gn_err err = {0};
+    if (!gn_gl_read_rgba8(show->screen.stage.gl, out, &err)) fail_msg("%s", err.text);
 }

@@ -13,5 +13,12 @@ struct gn_show *help_show_of(const char *config, const char *const more[]);
 /* As help_show(), but perhaps before the first scene is there, as any kiosk on a slow machine. */
 struct gn_show *help_show_begun(const char *const more[]);
 void help_show_step(struct gn_show *show);
+/* Steps until so many frames more are drawn, for at most a minute of the clock. */
+void help_show_frames(struct gn_show *show, unsigned count);
+/* Steps until a frame is drawn and nothing is made ahead any more, for at most three minutes of
+ * processor time. */
+void help_show_until_warm(struct gn_show *show);
+/* The frame that was drawn last: 4 bytes a pixel. */
+void help_show_picture(const struct gn_show *show, uint8_t *out);
 
 #endif
