@@ -215,7 +215,7 @@ $(LIB): $(call OBJ,$(SRC)) $(B)/obj/gen/embedded.o
 $(TESTLIB): $(call OBJ,$(filter-out $(PROG_C) tests/unit/keep_modules.c,$(TESTS_C)))
 $(LIB) $(TESTLIB): $(B)/sources
 	$(Q)rm -f $@.new && $(AR) rcs $@.new $(filter %.o,$^) && mv $@.new $@
-$(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
+$(B)/obj/%.o: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h $(B)/gen/rays.h
 	@mkdir -p $(@D) && echo "cc   $<"
 	$(Q)$(COMPILE) $(if $(filter tests/%,$<),$(TESTS_$(CONFIG)) -Itests) -c -o $@ $<
 $(B)/obj/src/import/draco.o: src/import/draco.cc $(B)/flags
@@ -266,6 +266,8 @@ $(B)/sources: FORCE
 $(B)/gen/config.h: FORCE
 	$(call keep,#define GN_VERSION "$(VERSION)"\n#define GN_PREFIX "$(PREFIX)"\n#define GN_HAVE_OSMESA $(if \
 	    $(filter %/osmesa.c,$(without)),0,1))
+$(B)/gen/rays.h: FORCE # what is kept of rays is of these sources
+	$(call keep,#define GN_RAYS_SOURCES "$(shell cat src/truth/*.[ch] src/scene/*.h | cksum)")
 $(B)/gen/poisson.h: $(O)/host/make_poisson
 	@mkdir -p $(@D)
 	$(Q)$< > $@
@@ -396,7 +398,7 @@ lint: $(call stamps,tidy,$(TIDY))
 lint-brief: $(call stamps,brief,$(TIDY))
 lint-changed: syntax
 	+@$(SUB) syntax $(wildcard $(call stamps,tidy,$(TIDY))) $$(tests/changed.sh $(B)/obj $(TIDY) | sed 's,\(.*\)c$$,$(B)/obj/\1tidy,')
-$(B)/obj/%.syntax: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h
+$(B)/obj/%.syntax: %.c $(B)/flags | $(B)/gen/config.h $(B)/gen/poisson.h $(B)/gen/rays.h
 	@mkdir -p $(@D) && echo "clang $<"
 	$(Q)$(subst -I/usr/,-isystem /usr/,$(COMPILE)) -Werror -Wreserved-identifier -Wreserved-macro-identifier -Itests -Iassets -fsyntax-only -MF $@.d -MT $@ $< && touch $@
 $(B)/obj/%.tidy: $(B)/obj/%.syntax .clang-tidy

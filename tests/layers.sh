@@ -56,7 +56,7 @@ is_test { next } # they may know everything
     else if (other in may) {
         if (room != "" && other != room && !is_in(other, may[room])) complain(room " may not include " target)
         if (target ~ /\/private\.h$/ && other != room) complain("private.h of another room")
-    } else if (target !~ /^(config|poisson)\.h$|^blocks\.glsl$/) complain("\"" target "\" is in no room: write room/header.h")
+    } else if (target !~ /^(config|poisson|rays)\.h$|^blocks\.glsl$/) complain("\"" target "\" is in no room: write room/header.h")
 }
 FNR == 1 { whole_kiosk = 0 }
 /"kiosk\/private\.h"/ { whole_kiosk = FILENAME !~ /\/(control\/(answer|status)|remember|trial)\.c$/ }

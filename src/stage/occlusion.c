@@ -7,7 +7,9 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/hash.h"
 #include "core/thread.h"
+#include "stage/kept.h"
 
 /* A step of a fade is at most 1/127 at 60 frames a second. */
 static const int64_t FADE_NS = 2 * GN_NS_PER_S;
@@ -114,13 +116,60 @@ static void begin_fade(struct gn_occluder *o, bool at_once) {
     if (at_once) mix_texels(o);
 }
 
+/* ---- kept on the disk ---- */
+
+static const struct gn_kept_kind kept_kind = {
+    .prefix = "occlusion-", .suffix = ".bin", .files_max = 16, .bytes_max = 4 << 20};
+
+/* A file has a hash of what follows: texels, or nothing where the scene has none. */
+static bool read_kept(const char *path, size_t bytes, struct gn_occlusion_made *made) {
+    struct gn_bytes file = {0};
+    uint64_t hash;
+    bool ok = gn_kept_read(&kept_kind, path, &file) &&
+              (file.size == sizeof hash || file.size == sizeof hash + bytes);
+    if (ok) {
+        const uint8_t *texels = (const uint8_t *)file.data + sizeof hash;
+        memcpy(&hash, file.data, sizeof hash);
+        ok = hash == gn_hash(GN_HASH_INIT, texels, file.size - sizeof hash);
+        if (ok && file.size > sizeof hash) {
+            made->texels = gn_xalloc(bytes, 1);
+            memcpy(made->texels, texels, bytes);
+        }
+    }
+    gn_bytes_finish(&file);
+    return ok;
+}
+
+static void keep(const char *path, size_t bytes, const struct gn_occlusion_made *made) {
+    uint64_t hash;
+    if (!made->texels) bytes = 0;
+    uint8_t *file = gn_xalloc(sizeof hash + bytes, 1);
+    if (bytes > 0) memcpy(file + sizeof hash, made->texels, bytes);
+    hash = gn_hash(GN_HASH_INIT, file + sizeof hash, bytes);
+    memcpy(file, &hash, sizeof hash);
+    gn_kept_write(&kept_kind, path, file, sizeof hash + bytes);
+    free(file);
+}
+
 /* ---- making ---- */
+
+static struct gn_occlusion_made read_or_make(const struct gn_scene *scene, const struct gn_sky *sky,
+                                             const struct gn_occlusion_work *work) {
+    const size_t bytes = cells_of(scene) * sizeof(int8_t[4]);
+    struct gn_occlusion_made made = {.texels = NULL};
+    char path[GN_KEPT_PATH];
+    const bool keeps = gn_kept_path(&kept_kind, gn_occlusion_key(scene, sky), bytes, path);
+    if (keeps && read_kept(path, bytes, &made)) return made;
+    made = gn_occlusion_make(scene, sky, work);
+    if (keeps && !(work->cancel && atomic_load(work->cancel))) keep(path, bytes, &made);
+    return made;
+}
 
 static void *make_in_thread(void *data) {
     struct gn_occluder *o = data;
     const struct gn_occlusion_work work = {.threads = 1, .cancel = &o->cancel};
     gn_thread_lower_priority();
-    o->made = gn_occlusion_make(o->scene, &o->its_sky, &work);
+    o->made = read_or_make(o->scene, &o->its_sky, &work);
     atomic_store(&o->done, true);
     return NULL;
 }
@@ -135,7 +184,7 @@ static void start_thread(struct gn_occluder *o) {
 
 static void make_now(struct gn_occluder *o) {
     const struct gn_occlusion_work work = {.threads = 0};
-    o->made = gn_occlusion_make(o->scene, &o->sky, &work);
+    o->made = read_or_make(o->scene, &o->sky, &work);
     o->is_made = true;
     begin_fade(o, true);
 }

@@ -1,5 +1,5 @@
 /* Occlusion of a scene's still parts, made for the light of an environment: at once, or by a thread
- * while frames go on; then it fades in. */
+ * while frames go on; then it fades in. Kept in the folder for caches, by what it is made of. */
 #ifndef GN_STAGE_OCCLUSION_H
 #define GN_STAGE_OCCLUSION_H
 

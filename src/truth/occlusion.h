@@ -67,6 +67,8 @@ struct gn_occlusion_made {
 /* The same bits with any number of threads. */
 struct gn_occlusion_made gn_occlusion_make(const struct gn_scene *scene, const struct gn_sky *sky,
                                            const struct gn_occlusion_work *work);
+/* A hash of all that it is made of with GN_OCCLUSION_RAYS, sources of this program included. */
+uint64_t gn_occlusion_key(const struct gn_scene *scene, const struct gn_sky *sky);
 /* What a shader reads of it, 0 to 1. */
 float gn_occlusion_read(const struct gn_scene_occlusion *grid, const int8_t (*texels)[4],
                         const float point_ws[3], const float normal_ws[3]);

@@ -1,5 +1,6 @@
 /* Occlusion in a kiosk: made beside its frames, and shown again after what ends it. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -95,6 +96,7 @@ static void a_scene_may_go_while_it_is_made(void **state) {
 }
 
 int main(void) {
+    setenv("CACHE_DIRECTORY", "/dev/null/none", 1); /* nothing is kept of earlier runs */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_go_on_while_it_is_made_and_fades),
         cmocka_unit_test(a_scene_may_go_while_it_is_made),

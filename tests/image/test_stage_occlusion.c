@@ -1,13 +1,18 @@
 /* Occlusion made beside the frames. */
+#include <dirent.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "core/clock.h"
+#include "core/file.h"
+#include "core/hash.h"
 #include "image/occlusion.h"
 #include "stage/occlusion.h"
 #include "unit/check.h"
+#include "unit/gl_help.h"
 
 static struct gn_scene *scene;
 static struct gn_frame_opts opts;
@@ -147,6 +152,132 @@ static void it_ends_while_a_thread_works(void **state) {
     gn_occluder_destroy(NULL);
 }
 
+/* ---- kept on the disk ---- */
+
+/* The path of the one file that is kept in a folder; false: there is none. */
+static bool find_kept(const char *folder, char path[300]) {
+    int count = 0;
+    DIR *dir = opendir(folder);
+    for (struct dirent *entry; dir && (entry = readdir(dir));)
+        if (entry->d_name[0] != '.' && ++count)
+            snprintf(path, 300, "%s/%.200s", folder, entry->d_name);
+    if (dir) closedir(dir);
+    assert_true(count <= 1);
+    return count == 1;
+}
+
+/* Complete, by an occluder of its own. */
+static int8_t *make_complete(void) {
+    struct gn_occluder *o = gn_occluder_create(scene);
+    int8_t *texels = malloc(texel_bytes());
+    if (!texels) abort();
+    gn_occluder_give(o, &opts, true);
+    memcpy(texels, opts.occlusion.texels, texel_bytes());
+    gn_occluder_destroy(o);
+    return texels;
+}
+
+static void what_was_made_is_read_again_unless_it_is_damaged(void **state) {
+    const char *folder = help_folder();
+    char path[300];
+    struct gn_err err = {0};
+    struct gn_bytes file = {0};
+    (void)state;
+    setenv("CACHE_DIRECTORY", folder, 1);
+    struct gn_occluder *o = gn_occluder_create(scene);
+    gn_occluder_give(o, &opts, false);
+    gn_occluder_destroy(o);
+    assert_false(find_kept(folder, path)); /* it was not done */
+    int8_t *made = make_complete();
+    assert_true(find_kept(folder, path));
+    if (!gn_file_read(path, 1 << 24, &file, &err)) fail_msg("%s", err.text);
+
+    uint8_t *bytes = (uint8_t *)(uintptr_t)file.data;
+    assert_int_equal(file.size, 8 + texel_bytes());
+    assert_memory_equal(bytes + 8, made, texel_bytes());
+    bytes[8] ^= 1; /* a file of a damaged disk */
+    assert_true(gn_file_replace(path, bytes, file.size, &err));
+    int8_t *again = make_complete();
+    assert_memory_equal(again, made, texel_bytes());
+    free(again);
+    const uint64_t hash = gn_hash(GN_HASH_INIT, bytes + 8, texel_bytes());
+    memcpy(bytes, &hash, sizeof hash); /* that which is whole is what is shown */
+    assert_true(gn_file_replace(path, bytes, file.size, &err));
+    again = make_complete();
+    assert_int_equal(largest_step(again, made), 1);
+    free(again);
+
+    scene->buffers.positions[0] += .125f; /* another scene: another file */
+    gn_file_replace(path, "short", 5, &err);
+    again = make_complete();
+    free(again);
+    DIR *dir = opendir(folder);
+    int count = 0;
+    for (struct dirent *entry; (entry = readdir(dir));) count += entry->d_name[0] != '.';
+    closedir(dir);
+    assert_int_equal(count, 2);
+    setenv("CACHE_DIRECTORY", "/dev/null/none", 1);
+    gn_bytes_finish(&file);
+    free(made);
+    help_remove(folder);
+}
+
+static uint64_t key(void) {
+    static const struct gn_sky even = {.turn = {1, 0}};
+    return gn_occlusion_key(scene, &even);
+}
+
+#define ASSERT_MATTERS(place, value)                                                               \
+    do {                                                                                           \
+        const __typeof__(place) was = (place);                                                     \
+        const uint64_t before = key();                                                             \
+        (place) = (value);                                                                         \
+        assert_true(key() != before);                                                              \
+        (place) = was;                                                                             \
+        assert_true(key() == before);                                                              \
+    } while (0)
+
+static void all_that_it_is_made_of_is_in_its_key(void **state) {
+    static uint8_t rgba[16];
+    struct gn_image image = {.width_px = 2, .height_px = 2, .rgba = rgba};
+    struct gn_texture texture = {.wrap_s = GN_WRAP_REPEAT};
+    struct gn_material *m = &scene->materials[scene->items[0].material];
+    struct gn_texture_ref *holes = &m->textures[GN_TEXTURE_BASE];
+    (void)state;
+    const uint64_t first = key();
+    teardown(NULL);
+    setup(NULL);
+    assert_true(key() == first); /* the same scene, in other memory */
+    m = &scene->materials[scene->items[0].material];
+    holes = &m->textures[GN_TEXTURE_BASE];
+    ASSERT_MATTERS(scene->buffers.positions[3], 77);
+    ASSERT_MATTERS(scene->buffers.normals[3], 77);
+    ASSERT_MATTERS(scene->buffers.indices[3], scene->buffers.indices[3] + 1);
+    ASSERT_MATTERS(scene->nodes[scene->items[0].node].translation[1], 77);
+    ASSERT_MATTERS(scene->items[0].still, !scene->items[0].still);
+    ASSERT_MATTERS(scene->items[0].casts, !scene->items[0].casts);
+    ASSERT_MATTERS(scene->items[0].hidden_in, 1);
+    ASSERT_MATTERS(scene->occlusion.cell_m, 77);
+    ASSERT_MATTERS(m->double_sided, !m->double_sided);
+    ASSERT_MATTERS(m->unlit, !m->unlit);
+    ASSERT_MATTERS(m->alpha, GN_ALPHA_MASK);
+    const struct gn_scene_pictures pictures = scene->pictures;
+    scene->pictures = (struct gn_scene_pictures){&image, &texture, 1, 1};
+    m->alpha = GN_ALPHA_MASK;
+    ASSERT_MATTERS(m->alpha_cutoff, .25f);
+    ASSERT_MATTERS(holes->texture, 0);
+    holes->texture = 0;
+    ASSERT_MATTERS(rgba[7], 9);
+    ASSERT_MATTERS(holes->uv_from_uv[4], .5f);
+    ASSERT_MATTERS(texture.mag_nearest, true);
+    m->alpha = GN_ALPHA_OPAQUE;
+    holes->texture = -1;
+    scene->pictures = pictures;
+
+    struct gn_sky other = {.turn = {1, 0}, .radiance = {1}};
+    assert_true(gn_occlusion_key(scene, &other) != first);
+}
+
 static void a_sky_has_the_radiance_of_its_harmonics(void **state) {
     static struct gn_environment_light light;
     (void)state;
@@ -163,11 +294,15 @@ static void a_sky_has_the_radiance_of_its_harmonics(void **state) {
 }
 
 int main(void) {
+    setenv("CACHE_DIRECTORY", "/dev/null/none", 1); /* nothing is kept of earlier runs */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(now_it_is_complete, setup, teardown),
         cmocka_unit_test_setup_teardown(a_thread_makes_the_same_and_it_fades_in, setup, teardown),
         cmocka_unit_test_setup_teardown(another_environment_is_made_anew, setup, teardown),
         cmocka_unit_test_setup_teardown(it_ends_while_a_thread_works, setup, teardown),
+        cmocka_unit_test_setup_teardown(what_was_made_is_read_again_unless_it_is_damaged, setup,
+                                        teardown),
+        cmocka_unit_test_setup_teardown(all_that_it_is_made_of_is_in_its_key, setup, teardown),
         cmocka_unit_test(a_sky_has_the_radiance_of_its_harmonics),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

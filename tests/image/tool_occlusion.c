@@ -1,4 +1,5 @@
-/* The volume of occlusion against rays: tool_occlusion [-s SIDE_PX] [-r RAYS] [FILE].. */
+/* The volume of occlusion against rays: tool_occlusion [-s SIDE_PX] [-r RAYS] [-m MILLIONS] [FILE]..
+ * MILLIONS: of rays that make it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +10,8 @@
 #include "image/occlusion.h"
 #include "stage/occlusion.h"
 
+static uint32_t own_rays; /* 0: as frames have them */
+
 static void print_scene(const char *name, const struct gn_scene *scene, int side_px,
                         uint32_t rays) {
     static struct gn_environment studio;
@@ -17,7 +20,7 @@ static void print_scene(const char *name, const struct gn_scene *scene, int side
     if (file && gn_environment_read(file->data, file->size, &studio))
         skies[1] = gn_stage_sky(&studio.rest, 0);
     for (int i = 0; i < 2; i++) {
-        const struct gn_occlusion_work work = {.threads = 1};
+        const struct gn_occlusion_work work = {.rays = own_rays, .threads = 1};
         const int64_t begun_ns = gn_clock_thread_cpu_ns();
         struct gn_occlusion_made made = gn_occlusion_make(scene, &skies[i], &work);
         const double seconds = (double)(gn_clock_thread_cpu_ns() - begun_ns) * 1e-9;
@@ -44,6 +47,8 @@ int main(int argc, char **argv) {
             side_px = atoi(argv[++i]);
         else if (strcmp(argv[i], "-r") == 0 && i + 1 < argc)
             rays = (uint32_t)atoi(argv[++i]);
+        else if (strcmp(argv[i], "-m") == 0 && i + 1 < argc)
+            own_rays = (uint32_t)atoi(argv[++i]) << 20;
         else {
             struct gn_scene_limits limits = {.floor.kind = GN_FLOOR_AUTO};
             struct gn_scene *scene = gn_scene_load(argv[i], &limits, NULL, &err);
