@@ -20,8 +20,8 @@ static const struct gn_help_entry variables[] = {
      "where Mesa keeps compiled shaders; with that folder kept between starts the first picture "
      "comes sooner"},
     {"CACHE_DIRECTORY, XDG_CACHE_HOME",
-     "where prefiltered environments are kept: in the first itself, or in gnomon in the second "
-     "(~/.cache); at most 16, of 256 KB each"},
+     "where prefiltered environments and models' ambient occlusion are kept: in the first itself, "
+     "or in gnomon in the second (~/.cache); at most 16 of each, of 2 and of 4 MB at most"},
     {0},
 };
 static const struct gn_help_entry files[] = {

@@ -1,5 +1,5 @@
-/* The volume of occlusion against rays: tool_occlusion [-s SIDE_PX] [-r RAYS] [-m MILLIONS] [FILE]..
- * MILLIONS: of rays that make it. */
+/* The volume of occlusion against rays: tool_occlusion [-s SIDE_PX] [-r RAYS] [-m MILLIONS]
+ * [FILE].., with so many millions of rays to make it. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
