@@ -54,8 +54,8 @@ static enum gn_technique technique_of(struct gn_frame *frame, const struct gn_fr
     const struct gn_light *light = &frame->scene->lights[chosen->light];
     struct gn_light_note *note = &frame->notes.lights.at[chosen->light];
     if (note->unknown && !given && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
-        gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a known technique; using pcf",
-                light->name, light->technique);
+        gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a known technique; using %s",
+                light->name, light->technique, gn_techniques[technique].name);
     if (!has_formats(frame, technique)) {
         const enum gn_technique instead = gn_techniques[technique].fallback
                                               ? (enum gn_technique)gn_techniques[technique].fallback

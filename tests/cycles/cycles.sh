@@ -16,6 +16,8 @@ leave() {
 chromium=${CHROMIUM:-$(command -v chromium || command -v chromium-browser || true)}
 command -v blender > /dev/null || leave 'needs Blender: apt-get install blender'
 [ -n "$chromium" ] || leave 'needs Chromium: apt-get install chromium, or CHROMIUM=PATH'
+python3 -c "import numpy" 2> /dev/null || /usr/bin/python3 -c "import numpy" 2> /dev/null ||
+    leave 'needs NumPy, which trace.py uses in Blender: apt-get install python3-numpy'
 command -v node > /dev/null || leave 'needs Node.js: apt-get install nodejs npm'
 [ -e "$package/dist/model-viewer.min.js" ] ||
     leave 'needs model-viewer: npm install --prefix build/modelviewer @google/model-viewer, or MODEL_VIEWER=FOLDER'
