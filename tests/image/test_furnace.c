@@ -335,13 +335,15 @@ static void test_it_is_as_bright_as_in_reflections(void **state) {
 
 /* ---- what is kept ---- */
 
+/* Of environments: how many, and the path of one. */
 static int list_kept(char path[700]) {
+    static const char prefix[] = "environment-";
     char cache[560];
     int count = 0;
     snprintf(cache, sizeof cache, "%s/gnomon", folder);
     DIR *dir = opendir(cache);
     for (struct dirent *entry; dir && (entry = readdir(dir));) {
-        if (entry->d_name[0] == '.') continue;
+        if (strncmp(entry->d_name, prefix, sizeof prefix - 1) != 0) continue;
         snprintf(path, 700, "%s/%s", cache, entry->d_name);
         count++;
     }
