@@ -103,10 +103,10 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
             if (program->texture_slots >> slot & 1) gn_gl_texture_bind(gl, material, slot);
     }
     if (geometry && (program->u_uv >= 0 || program->u_factors >= 0)) {
-        const uint32_t uv = gl->scene.material_uv[d->material];
-        if (program->uv != uv) {
-            const float *set = gl->scene.uv[uv][0];
-            program->uv = uv;
+        const uint32_t number = gl->scene.material_sets[d->material];
+        if (program->set != number) {
+            const float *set = gl->scene.sets[number][0];
+            program->set = number;
             if (program->u_uv >= 0) GL(gl, Uniform4fv)(program->u_uv, GN_GL_TRANSFORMS, set);
             if (program->u_factors >= 0)
                 GL(gl, Uniform4fv)(program->u_factors, GN_GL_FACTORS, set + 4 * GN_GL_TRANSFORMS);

@@ -173,7 +173,7 @@ bool gn_gl_program_is_dropped(struct gn_gl *gl, const struct gn_program_key *key
 static struct gn_gl_program program_of(struct gn_gl *gl, const struct gn_program_key *key,
                                        GLuint name) {
     struct gn_gl_program p = {
-        .key = *key, .name = name, .made = gl->programs.made, .uv = UINT32_MAX};
+        .key = *key, .name = name, .made = gl->programs.made, .set = UINT32_MAX};
     p.u_pass = GL(gl, GetUniformLocation)(name, "u_pass");
     p.u_uv = GL(gl, GetUniformLocation)(name, "u_uv");
     p.u_factors = GL(gl, GetUniformLocation)(name, "u_factors");

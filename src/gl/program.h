@@ -17,7 +17,7 @@ struct gn_gl_program {
     uint32_t attributes;           /* bit per location that it reads */
     uint32_t texture_slots;        /* bit per gn_texture_slot that it reads */
     uint64_t constants_hash;       /* of what u_pass holds; 0: nothing yet */
-    uint32_t uv; /* which row of gl->scene.uv u_uv and u_factors hold; UINT32_MAX: none yet */
+    uint32_t set; /* which of gl->scene.sets u_uv and u_factors hold; UINT32_MAX: none yet */
 };
 struct gn_gl_programs { /* open addressing, room is a power of two, at most half full */
     struct gn_gl_program *table;

@@ -73,7 +73,7 @@ struct gn_gl_upload {
 enum { /* vectors of a material in uniforms: u_uv, then u_factors (lib/vertex.glsl, surface.glsl) */
        GN_GL_TRANSFORMS = 2 * GN_TEXTURE_SLOT_COUNT,
        GN_GL_FACTORS = 1 + GN_FACTORS_VECTORS,
-       GN_GL_UV_COUNT = GN_GL_TRANSFORMS + GN_GL_FACTORS,
+       GN_GL_SET_VECTORS = GN_GL_TRANSFORMS + GN_GL_FACTORS,
 };
 struct gn_gl_scene {
     const struct gn_scene *scene;
@@ -87,9 +87,9 @@ struct gn_gl_scene {
     uint32_t image_count;                   /* kept: the scene may be gone when we finish */
     GLuint *images[GN_GL_TEXELS_COUNT];     /* by image; 0 where not used so */
     GLuint samplers[GN_GL_SAMPLER_KINDS];
-    float (*uv)[GN_GL_UV_COUNT][4]; /* different sets of transforms and factors */
-    uint32_t *material_uv;          /* by material: index into uv */
-    uint32_t uv_count;
+    float (*sets)[GN_GL_SET_VECTORS][4]; /* different sets of transforms and factors */
+    uint32_t *material_sets;             /* by material: index into sets */
+    uint32_t set_count;
     uint64_t buffer_bytes, texture_bytes;
     struct gn_gl_vertices vertices[GN_GL_VERTICES_MAX];
     uint32_t vertices_count;

@@ -124,7 +124,7 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
 }
 
 static void forget_programs(struct gn_gl *gl) {
-    for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].uv = UINT32_MAX;
+    for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].set = UINT32_MAX;
 }
 
 /* What uniforms have of a material. */
@@ -147,19 +147,20 @@ static void fill_set(const struct gn_material *m, float (*set)[4]) {
 static void share_sets(struct gn_gl_scene *s) {
     const struct gn_scene *scene = s->scene;
     uint32_t last_moving = 0; /* sets before it are not shared */
-    s->uv = gn_xalloc(scene->material_count + 1, sizeof *s->uv);
-    s->material_uv = gn_xalloc(scene->material_count + 1, sizeof *s->material_uv);
+    s->sets = gn_xalloc(scene->material_count + 1, sizeof *s->sets);
+    s->material_sets = gn_xalloc(scene->material_count + 1, sizeof *s->material_sets);
     for (uint32_t i = 0; i < scene->material_count; i++) {
         const bool moves = scene->materials[i].moves;
-        fill_set(&scene->materials[i], s->uv[s->uv_count]);
-        uint32_t same = s->uv_count > 8 ? s->uv_count - 8 : 0; /* look at the last few only */
+        fill_set(&scene->materials[i], s->sets[s->set_count]);
+        uint32_t same = s->set_count > 8 ? s->set_count - 8 : 0; /* look at the last few only */
         if (same < last_moving) same = last_moving;
-        if (moves) same = s->uv_count;
-        while (same < s->uv_count && memcmp(s->uv[same], s->uv[s->uv_count], sizeof *s->uv) != 0)
+        if (moves) same = s->set_count;
+        while (same < s->set_count &&
+               memcmp(s->sets[same], s->sets[s->set_count], sizeof *s->sets) != 0)
             same++;
-        s->material_uv[i] = same;
-        s->uv_count += same == s->uv_count;
-        if (moves) last_moving = s->uv_count;
+        s->material_sets[i] = same;
+        s->set_count += same == s->set_count;
+        if (moves) last_moving = s->set_count;
     }
 }
 
@@ -167,14 +168,14 @@ void gn_gl_materials_update(struct gn_gl *gl, const struct gn_plan *plan) {
     const struct gn_scene *scene = gl->scene.scene;
     if (plan->materials == scene->materials) return;
     for (uint32_t i = 0; i < scene->material_count; i++) {
-        float set[GN_GL_UV_COUNT][4];
-        const uint32_t uv = gl->scene.material_uv[i];
+        float set[GN_GL_SET_VECTORS][4];
+        const uint32_t number = gl->scene.material_sets[i];
         if (!scene->materials[i].moves) continue;
         fill_set(&plan->materials[i], set);
-        if (memcmp(gl->scene.uv[uv], set, sizeof set) == 0) continue;
-        memcpy(gl->scene.uv[uv], set, sizeof set);
+        if (memcmp(gl->scene.sets[number], set, sizeof set) == 0) continue;
+        memcpy(gl->scene.sets[number], set, sizeof set);
         for (uint32_t k = 0; k < gl->programs.room; k++)
-            if (gl->programs.table[k].uv == uv) gl->programs.table[k].uv = UINT32_MAX;
+            if (gl->programs.table[k].set == number) gl->programs.table[k].set = UINT32_MAX;
     }
 }
 
@@ -223,8 +224,8 @@ void gn_gl_scene_finish(struct gn_gl *gl) {
     gn_gl_object_destroy(gl, GN_GL_BUFFER, &s->indices);
     gn_gl_textures_finish(gl);
     gn_gl_deformation_finish(gl);
-    free(s->uv);
-    free(s->material_uv);
+    free(s->sets);
+    free(s->material_sets);
     *s = (struct gn_gl_scene){0};
 }
 

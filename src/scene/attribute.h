@@ -44,7 +44,7 @@ enum {
 };
 #undef GN_X
 
-/* In the scene, and how a GPU gets it. */
+/* In the scene, and how a GPU gets it. Those of skins come last (geometry.c). */
 enum gn_attribute_format {
     GN_ATTRIBUTE_FLOAT,   /* floats; the same */
     GN_ATTRIBUTE_SNORM16, /* floats -1..1; four shorts */

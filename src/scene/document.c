@@ -86,8 +86,9 @@ bool gn_document_indices(struct gn_document *d, size_t index, uint32_t *out) {
 
 void gn_document_view(const struct gn_document *d, size_t index, const uint8_t **data, size_t *size,
                       size_t *stride) {
-    const struct gn_view none = {0},
-                         *view = index < d->g.file.view_count ? &d->g.file.views[index] : &none;
+    const struct gn_buffer_view none = {0}, *view = index < d->g.file.view_count
+                                                        ? &d->g.file.views[index]
+                                                        : &none;
     *data = view->data;
     *size = view->data ? view->size : 0;
     *stride = view->stride;

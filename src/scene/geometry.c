@@ -58,7 +58,7 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
         const struct gn_attribute_row *row = &gn_attributes[i];
         uint8_t *array = g->scene->buffers.attributes[i];
         gather.accessor = gn_gltf_accessor(g, attribute[i]);
-        if (!array || row->format >= GN_ATTRIBUTE_UINT16) continue; /* of skins: below */
+        if (!array || row->format >= GN_ATTRIBUTE_UINT16) continue; /* of skins: at the end */
         uint8_t *bytes = array + gather.first * row->bytes;
         float *floats = (float *)(void *)bytes;
         const size_t count = gather.count * row->components;
@@ -362,7 +362,7 @@ static bool allocate_vertices(struct gn_gltf *g) {
         for (int k = 0; k < GN_ATTRIBUTE_COUNT; k++) any[k] |= shape->attribute[k] >= 0;
         any[GN_ATTRIBUTE_TANGENT] |= shape->tangents != GN_TANGENTS_NONE;
     }
-    const uint64_t added = g->limits.floor.kind != GN_FLOOR_NONE;
+    const uint64_t added = g->limits.floor.kind != GN_FLOOR_NONE; /* the floor's quad (floor.c) */
     if (vertices > g->limits.vertices)
         return gn_gltf_fail(g, &meshes,
                             "%" PRIu64 " vertices are more than the limit vertices=%" PRIu64,
@@ -406,11 +406,11 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
         if (shape->attribute[GN_ATTRIBUTE_NORMAL] >=
             0) /* else its normals are those of the faces */
             gn_geometry_add_spreads(scene, geometry);
-        /* The test visits all vertices, which many geometries may share: run it only where most
-         * belong to this one. Many geometries may read the same indices, too: its work is bounded
-         * by the limit on vertices. */
-        const bool is_own = geometry->vertex_count <= 2 * (uint64_t)geometry->index_count;
-        if (is_own && g->closed_corners <= CLOSED_CORNERS * g->limits.vertices)
+        /* The test visits all vertices, which many geometries may share: it runs only where this
+         * one may use half of them. Many geometries may read the same indices, too: its work is
+         * bounded by the limit on vertices. */
+        const bool may_use_half = geometry->vertex_count <= 2 * (uint64_t)geometry->index_count;
+        if (may_use_half && g->closed_corners <= CLOSED_CORNERS * g->limits.vertices)
             gn_geometry_test_closed(g, geometry);
         g->closed_corners += geometry->index_count;
     }

@@ -1,4 +1,5 @@
-/* Derived from the triangles of a geometry: missing normals, bounds, and whether it is flat. */
+/* Derived from the triangles of a geometry: missing normals, tangents of length 0, spreads of
+ * normals, bounds, and whether it is flat. */
 #include "scene/private.h"
 
 #include <math.h>

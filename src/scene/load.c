@@ -94,6 +94,7 @@ static struct gn_scene *load_once(struct gn_gltf *g, const uint8_t *data, size_t
         done = STEPS[i].run(g) && gn_gltf_check_time(g);
     }
     done = done && !g->failed;
+    /* after success, or a failure by a limit, smaller pictures may fit */
     *fit_px = done || !g->failed_part ? gn_gltf_fit_pictures(g) : 0;
     holder->scene.memory.bytes = holder->arena.used + sizeof *holder;
     holder->scene.memory.loading_bytes = g->memory.most_bytes + sizeof *holder;
@@ -145,7 +146,7 @@ char *gn_scene_folder(const char *path) {
     char folder[PATH_MAX] = ".";
     size_t length = slash == path ? 1 : slash ? (size_t)(slash - path) : strlen(folder);
     if (length >= sizeof folder) return NULL;
-    memcpy(folder, slash ? path : ".", length);
+    if (slash) memcpy(folder, path, length);
     folder[length] = 0;
     return realpath(folder, NULL);
 }

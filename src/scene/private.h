@@ -20,8 +20,8 @@ struct gn_blob { /* bytes of a file, a data URI or a part of the model itself */
     struct gn_bytes file; /* owned, if it came from a file */
 };
 
-struct gn_view { /* a bufferView that lies inside its buffer; data is NULL where the buffer is a
-                    placeholder */
+/* A bufferView that lies inside its buffer; data is NULL where the buffer is a placeholder. */
+struct gn_buffer_view {
     const uint8_t *data;
     size_t size, stride; /* stride 0: tight */
 };
@@ -89,10 +89,12 @@ struct gn_vertices { /* a set of attribute accessors; geometries with normals sh
     uint32_t first, count;
     bool filled, lacks_normals; /* some normal had no length */
 };
-struct gn_shape { /* the source of a geometry */
+/* The source of a geometry. attribute .. targets are the key of a table (gltf/mesh.c). */
+struct gn_shape {
     int32_t attribute[GN_ATTRIBUTE_COUNT];
     int32_t indices, mode;
-    int32_t tangents;         /* to make (gn_gltf_tangents); 0: none */
+    int32_t tangents;         /* to make (gn_gltf_tangents); 0: none. Until choose_tangents(): that
+                                 the normal map needs, though the file may have them */
     int32_t targets;          /* 0: it has none; else no other shape has the same */
     uint32_t vertices;        /* index into primitives.vertices; UINT32_MAX: its own, since normals
                                  or tangents are made */
@@ -125,7 +127,7 @@ struct gn_gltf_file { /* what the file declares, by its own numbers */
     json_t *json;
     struct gn_blob bin; /* the BIN chunk of a .glb */
     struct gn_blob *buffers;
-    struct gn_view *views;
+    struct gn_buffer_view *views;
     struct gn_accessor *accessors;
     const float **key_times; /* per accessor: times already copied */
     double **origins;        /* per accessor: what is taken off its positions, or NULL */
@@ -199,7 +201,7 @@ struct gn_gltf {
     uint64_t decoded_bytes;  /* of the pictures in memory */
     uint64_t decode_work;    /* of the pictures in memory; see decode_image() */
     uint64_t damaged_work;   /* of those whose decoding failed */
-    uint64_t closed_corners; /* of geometries tested by gn_geometry_is_closed() */
+    uint64_t closed_corners; /* of the geometries so far, tested for being closed or not */
     struct gn_scene *scene;
 };
 
@@ -282,7 +284,8 @@ bool gn_missing_list(struct gn_gltf *g);
 
 /* gltf/compressed.c: where the view is compressed by meshoptimizer, and this build has the decoder,
  * sets view->data, which else stays NULL. False: the load failed. */
-bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at, struct gn_view *view);
+bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at,
+                        struct gn_buffer_view *view);
 
 /* uri.c: data: URIs and files in the model's folder or below. err has no path before its
  * text. */
@@ -311,7 +314,7 @@ void gn_accessor_indices(const struct gn_accessor *a, uint32_t *out);
 /* geometry.c: of two uint32_t, for qsort(). */
 int gn_compare_indices(const void *a, const void *b);
 
-/* geometry_finish.c: steps of making a geometry that need only its triangles. */
+/* geometry_finish.c: steps of making a geometry that need only its vertices and triangles. */
 /* Flat normals for triangles that have none. positions: 3 x vertex_count. corners: corner_count
  * indices into them, which become indices into the *made vertices, at most corner_count; of these
  * *source[i], in work memory, is the position, and 3 floats of normals are the normal. */
@@ -321,6 +324,9 @@ bool gn_geometry_flat_normals(struct gn_gltf *g, const float *positions, uint32_
 /* Replaces normals of length 0 by the normal of a face; returns their number. */
 size_t gn_normals_repair(const float *positions, float *normals, const uint32_t *corners,
                          size_t corner_count);
+/* Of the vertices first .. first + count: tangents of length 0 become any in the surface, and w
+ * becomes -1 or 1. */
+void gn_geometry_repair_tangents(struct gn_scene *scene, size_t first, size_t count);
 /* Of the vertices of a geometry, whose triangles may share them with others. */
 void gn_geometry_add_spreads(struct gn_scene *scene, const struct gn_geometry *geometry);
 /* Of one vertex, by one face around it; neither need be of unit length. */
@@ -350,11 +356,6 @@ bool gn_morph_build(struct gn_gltf *g, const struct gn_at *primitive, const stru
 bool gn_gltf_strip(struct gn_gltf *g, const struct gn_at *at, uint32_t rows, struct gn_strip *out);
 /* Sets skin, morph and rows of an item, as its geometry has joints and targets. */
 bool gn_gltf_deform_item(struct gn_gltf *g, struct gn_item *item);
-
-/* Of the vertices first .. first + count: tangents of length 0 become any in the surface, w -1
- * or 1.
- */
-void gn_geometry_repair_tangents(struct gn_scene *scene, size_t first, size_t count);
 
 /* tangent.c: tangents for normal maps, as MikkTSpace defines them. */
 struct gn_tangent_mesh {

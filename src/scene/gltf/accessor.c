@@ -43,7 +43,7 @@ struct span {
 
 /* Checks that all elements lie inside the view. */
 static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struct span *span) {
-    const struct gn_view *view = &g->file.views[span->view];
+    const struct gn_buffer_view *view = &g->file.views[span->view];
     if (span->stride == 0) span->stride = span->element;
     uint64_t end = 0;
     bool fits = !__builtin_mul_overflow(span->count - 1, span->stride, &end) &&

@@ -20,7 +20,7 @@ static bool load_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
     return true;
 }
 
-static bool read_view(struct gn_gltf *g, const struct gn_at *at, struct gn_view *view) {
+static bool read_view(struct gn_gltf *g, const struct gn_at *at, struct gn_buffer_view *view) {
     struct gn_at buffer_at = gn_at_any(at, "buffer");
     const int32_t index = gn_at_ref(g, at, "buffer", g->file.buffer_count, "buffers");
     const uint64_t offset = gn_at_uint(g, at, "byteOffset", 0);

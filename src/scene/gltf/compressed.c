@@ -89,7 +89,8 @@ static bool read_stream(struct gn_gltf *g, const struct gn_at *at, struct gn_mes
     return check_stream(out, &err) || gn_gltf_fail(g, at, "%s", err.text);
 }
 
-bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at, struct gn_view *view) {
+bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at,
+                        struct gn_buffer_view *view) {
     struct gn_at at = {0};
     for (size_t i = 0; i < 2 && !at.json; i++) at = gn_at_object(g, view_at, paths[i]);
     struct gn_meshopt_stream stream = {0};

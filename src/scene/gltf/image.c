@@ -141,7 +141,7 @@ static bool open_source(struct gn_gltf *g, const struct gn_at *at, struct source
         return true;
     }
     if (number < 0) return gn_fail(err, "has neither uri nor bufferView");
-    const struct gn_view *view = &g->file.views[number];
+    const struct gn_buffer_view *view = &g->file.views[number];
     if (!view->data) return gn_fail(err, "bufferView %d holds no data", number);
     source->blob = (struct gn_blob){.data = view->data, .size = view->size};
     memcpy(source->key, (uint64_t[]){2, (uintptr_t)view->data, view->size}, sizeof source->key);

@@ -179,7 +179,7 @@ static bool add_primitive(struct reader *reader, const struct gn_at *primitive,
     shape.tangents = gn_gltf_tangents(g, material);
     uint64_t uv_sets[GN_UV_SETS];
     gn_gltf_uv_sets(g, material, uv_sets);
-    if (g->failed || !read_shape(g, primitive, uv_sets, &shape) || g->failed) return false;
+    if (g->failed || !read_shape(g, primitive, uv_sets, &shape)) return false;
     choose_tangents(g, primitive, uv_sets, &shape);
     uint32_t *known = gn_table_find(&reader->shapes, shape.attribute);
     if (*known == 0) {
