@@ -1,7 +1,8 @@
 /* From a program key to the source of a shader. Key bits become `const bool`, used with plain `if`;
- * a WITH_ macro stands beside each for declarations. Every technique defines the same function, and
- * so does every encoding: the names that a file lists in its `//@ names` line get a suffix by macro
- * while the file is read, so that a program can have several. No GL. */
+ * a WITH_ macro stands beside each for declarations. Every technique defines the same function, but
+ * for one argument more where it reads two maps (add_filtered()), and so does every encoding: the
+ * names that a file lists in its `//@ names` line get a suffix by macro while the file is read, so
+ * that a program can have several. No GL. */
 #include <stdio.h>
 #include <string.h>
 
@@ -20,7 +21,7 @@ static bool compares_in_sampler(const struct gn_light_key *light) {
            light->encoding == GN_ENCODING_DEPTH && !gn_techniques[light->technique].searches;
 }
 
-static bool takes_taps(const struct gn_technique_row *technique) {
+static bool reads_taps_file(const struct gn_technique_row *technique) {
     return technique->taps == GN_TAPS_DISK || technique->taps == GN_TAPS_POISSON;
 }
 
@@ -165,7 +166,7 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
     /* the files of the light's shadow, each after those that it uses */
     const char *files[LOOKUP_FILES] = {
         compares ? "lib/map_depth.glsl" : gn_encodings[light->encoding].file,
-        compares ? NULL : "lib/map_lit.glsl", takes_taps(technique) ? "lib/taps.glsl" : NULL,
+        compares ? NULL : "lib/map_lit.glsl", reads_taps_file(technique) ? "lib/taps.glsl" : NULL,
         technique->reads_both ? gn_moments[light->moments].file : NULL, technique->file};
     if (gn_technique_replaces_map((enum gn_technique)light->technique)) {
         files[0] = gn_moments[light->moments].file;
@@ -237,7 +238,8 @@ static void add_flags(int lights, const char *name, uint32_t bits, struct gn_gl_
  * shared, and first elsewhere, where that saves work. SHADOW_BACKS: visibility matters where a
  * surface is turned away from the light, too. SHADOW_SPREAD: the bias takes into account how far
  * faces are turned from their smooth normals; WITH_SPREAD: it does so in the fragment shader. In a
- * pose even the faces of a mesh without smooth normals are, so there it is for all techniques. */
+ * pose even the faces of a mesh without smooth normals are, so there it is for all techniques.
+ * SHADOW_SMOOTH: the receiver's plane is that of the smooth normal, which takes no derivatives. */
 static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text *out) {
     /* a bit per light */
     uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0, projected = 0;

@@ -31,7 +31,7 @@ enum { GN_GL_NAMES_MAX = 32 };
 int gn_gl_source_names(const struct gn_gl_source *source, const char *name,
                        char names[GN_GL_NAMES_MAX][64], struct gn_err *err);
 
-/* The whole source of one shader of a variant. */
+/* The whole source of one shader of a program. */
 enum gn_gl_shader { GN_GL_VERTEX, GN_GL_FRAGMENT };
 bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_shader shader,
                    struct gn_gl_text *out, struct gn_err *err);

@@ -126,7 +126,8 @@ static bool check_unique(const struct load *load, const struct gn_override *sett
     return true;
 }
 
-/* A setting of one of many; what it sets again is added to. */
+/* A setting of one of many. Of `as` only the label and the line are read. Limits that it sets again
+ * are added to those that are there; other keys may not be set again (line_before()). */
 static bool set_one(struct load *load, const struct gn_option_row *row, const char *text,
                     const struct gn_override *as, struct gn_err *err) {
     struct gn_arena *arena = &load->options->arena;

@@ -113,6 +113,7 @@ const struct gn_option_row *gn_section_find_key(const struct gn_section_row *sec
         const char *own = gn_section_key(section, &rows[i], buffer, sizeof buffer);
         if (!own) continue;
         if (strcmp(own, key) == 0) return &rows[i];
+        /* beside the short key, too; elsewhere gn_section_key() gave the whole name */
         const struct gn_section_row *of = plain_section_of(&rows[i]);
         const struct gn_option_row whole = {.name = rows[i].name};
         if (of && of->by_whole_names &&

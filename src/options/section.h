@@ -20,8 +20,8 @@ struct gn_section_row {
     bool of_content;     /* of a kiosk.ini that gnomon take brings, not of the file below it */
     bool of_machine;     /* never of that one, but for what content.c excepts */
     bool of_modes;       /* its keys are modes', too */
-    bool by_whole_names; /* its keys are also whole names of options, light_azimuth, there and.. */
-    bool takes_whole_names; /* ..here */
+    bool by_whole_names; /* whole names of its options are keys, too: light_azimuth for azimuth */
+    bool takes_whole_names; /* those of all sections with by_whole_names are its keys */
     /* of many */
     const struct gn_option_row *rows; /* its own keys, for gn_section_fill(); NULL: of options */
     int row_count;

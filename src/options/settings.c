@@ -55,9 +55,7 @@ bool gn_settings_light_holds(const struct gn_settings *settings,
     const struct gn_technique_list *techniques = override->value;
     const bool casts_none =
         override->row->kind == GN_KIND_TECHNIQUES && techniques->items[0] == GN_TECHNIQUE_NONE;
-    const char *section = override->row->section;
-    const bool of_made_light = section && strcmp(section, "light") == 0;
-    return casts_none || of_made_light ||
+    return casts_none || gn_option_is_of(override->row, "light") ||
            settings->source[index_of_row(override->row)] < GN_SOURCE_MODE;
 }
 

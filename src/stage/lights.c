@@ -31,7 +31,7 @@ static bool is_automatic(const struct gn_option_row *row, const void *value) {
 /* From a value of a setting, by the row's kind, to the field of an entry. */
 static void set_entry(struct gn_light_opts *entry, const struct gn_option_row *row,
                       const void *value) {
-    /* the made light's is its environment's then */
+    /* then that of the environment's key stays, which gn_stage_set_key() gave the made light */
     if (row->target == offsetof(struct gn_light_opts, radius) && is_automatic(row, value)) return;
     union {
         float number;
@@ -56,7 +56,7 @@ static void set_entry(struct gn_light_opts *entry, const struct gn_option_row *r
 }
 
 static bool is_of_made_light(const struct gn_option_row *row) {
-    return row->section && strcmp(row->section, "light") == 0;
+    return gn_option_is_of(row, "light");
 }
 
 /* A mode, a flag or `ctl set` sets a key of [light] for the made light alone. */

@@ -242,6 +242,7 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
                              scene->light_count, scene->light_count == 1 ? "" : "s");
     set_frame_opts(&look->frame_opts, o);
     set_framing(&look->frame_opts.view.framing, &o->camera, scene->place.origin);
+    /* before the lights, whose settings replace what its key gives the made one */
     if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
         !do_without(o, offsetof(struct gn_settings, render.environment), warnings, err))
         return false;
