@@ -140,7 +140,7 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
             gn_view_draw(&r->stage.shown, &r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;
         if (o->run.plan && i == 0) gn_plan_print(plan, stdout);
-        /* on a terminal, once the work has taken a second */
+        /* likewise */
         if (frames > 1 && gn_clock_monotonic_ns() - begun_ns > GN_NS_PER_S && isatty(STDERR_FILENO))
             fprintf(stderr, "\rframe %d of %d%s", i + 1, frames, i + 1 == frames ? "\n" : "");
     }

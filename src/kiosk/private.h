@@ -67,7 +67,8 @@ struct gn_show {
     struct gn_parts parts;
     struct gn_show_first first;
     struct gn_screenshot *screenshot; /* that a request asks for; NULL: none did so far */
-    bool ends, reloads, failed;
+    bool ends, failed;
+    bool reloads; /* a reload is wanted (wish); `reload` is the one that has begun */
 };
 
 /* ---- show.c: the top; these for tests ------------------------------------------------------- */
@@ -103,7 +104,8 @@ void gn_show_take_input(struct gn_show *show, const struct gn_pointer *pointer);
 
 /* ---- begin.c: from arguments to a first mode ------------------------------------------------- */
 
-/* With the settings of the first mode, or of none. */
+/* With the settings of the first mode, or of none. A bad file is no failure: config_error then has
+ * the reason. NULL: the arguments are wrong, or do not fit the file. */
 struct gn_options *gn_show_read_options(const struct gn_options *like, struct gn_warnings *warnings,
                                         struct gn_err *err);
 void gn_show_drop_options(struct gn_options *options);

@@ -2,6 +2,7 @@
 #ifndef GN_KIOSK_PROBLEMS_H
 #define GN_KIOSK_PROBLEMS_H
 
+/* The order matters: a reload ends those from CONFIG to SCENE. */
 enum gn_problem {
     GN_PROBLEM_START,      /* of this start, for good */
     GN_PROBLEM_CONTROL,    /* no control socket; until it opens */

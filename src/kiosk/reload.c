@@ -1,7 +1,7 @@
 /* Reload (SIGHUP, ctl): all options are read again, a thread loads the scene, and work ahead puts
  * it on the GPU, while frames go on. If one fails the kiosk keeps the last good configuration and
- * its picture. The first load is one, too, once it takes over a second: until then a black stage is
- * the last good one. */
+ * its picture; but once the old scene is gone (take_reload()) a failure ends the kiosk. The first
+ * load is one, too, once it takes over a second: until then a black stage is the last good one. */
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -77,11 +77,6 @@ void gn_show_drop_reload(struct gn_show *s) {
     s->reload = (struct gn_show_reload){0};
 }
 
-/* The default scene is shown in place of the first one. */
-static void report_missing(struct gn_show *s, const char *why) {
-    gn_show_report_error(s, GN_PROBLEM_CONFIG, why);
-}
-
 /* The last good configuration stays. The error is shown on the screen, but one of ctl's file is the
  * client's alone. */
 static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct gn_err *why) {
@@ -151,7 +146,8 @@ static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const ch
     }
     if (options) gn_fail_usage(&why, "%s", options->config_error);
     gn_show_drop_options(options);
-    /* what is wrong with kiosk.ini stays on the screen, whoever found it */
+    /* what is wrong with kiosk.ini stays on the screen, whoever found it: a change that is seen
+     * counts as a reload that was asked for */
     keep_old(s, cause == GN_RELOAD_SEEN ? GN_RELOAD_ASKED : cause, &why);
 }
 
@@ -236,7 +232,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     *r = (struct gn_show_reload){0};
     const bool ok = take_reload(s, &taken, err);
     if (ok && taken.first) s->counts.frames = 0;
-    if (ok && taken.why[0]) report_missing(s, taken.why);
+    if (ok && taken.why[0]) gn_show_report_error(s, GN_PROBLEM_CONFIG, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);
     gn_parts_loaded(&s->parts, GN_PART_LOAD_OPTIONS);
     return ok;
@@ -261,6 +257,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
             return false;
         } else {
             keep_old(s, r->cause, &why);
+            return true;
         }
     }
     if (gn_show_reload_is_staged(&s->screen)) return finish_reload(s, err);
@@ -305,6 +302,6 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     loaded->pose = (struct gn_pose){0};
     loaded->occluder = NULL;
     gn_show_drop_reload(s);
-    if (ok && missing[0]) report_missing(s, missing);
+    if (ok && missing[0]) gn_show_report_error(s, GN_PROBLEM_CONFIG, missing);
     return ok;
 }

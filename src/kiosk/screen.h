@@ -124,7 +124,8 @@ void gn_show_forget_work(struct gn_show_screen *screen);
 void gn_show_advance(struct gn_show_screen *screen);
 /* gn_show_advance() can show the wanted mode and scene now. */
 bool gn_show_can_advance(const struct gn_show_screen *screen);
-/* Stages reload.loaded, or changes the look of what is staged. A failure is in reload.loaded. */
+/* Stages reload.loaded, or changes the look of what is staged. If its programs fail later,
+ * reload.loaded has the reason. */
 void gn_show_stage_reload(struct gn_show_screen *screen, const struct gn_stage_look *look);
 bool gn_show_reload_is_staged(const struct gn_show_screen *screen); /* complete or not */
 bool gn_show_reload_is_ready(const struct gn_show_screen *screen);  /* it is complete */

@@ -19,7 +19,8 @@ void gn_show_take_request(struct gn_show *show, const struct gn_transport *from,
 /* Its requests that wait are gone; they get no answer any more. */
 void gn_show_forget_requests(struct gn_show *show, const struct gn_transport *from);
 
-/* Answers the request for a reload; why not NULL: it failed, and nothing has changed. */
+/* Answers the request for a reload; why not NULL: it failed, and nothing has changed,
+ * unless the old scene was gone already: then the kiosk ends. */
 void gn_show_answer_reload(struct gn_show *show, const struct gn_err *why);
 
 #endif

@@ -148,7 +148,7 @@ static const struct gn_metric kiosk_metrics[] = {
     METRIC(pointers, "input.pointers", "", "touch screens and mice"),
     METRIC(fps, "fps", "frames", "in the last second"),
     METRIC(config, "config.path", "", "the configuration file"),
-    METRIC(error, "config.error", "", "why it is not in use"),
+    METRIC(error, "config.error", "", "why it is not in use, or another problem that lasts"),
     METRIC(problem, "problem", "", "the last that is not cured"),
 };
 
