@@ -48,8 +48,7 @@ vec3 environment_facing_share(vec3 f0, float alpha) {
 vec3 environment_share(vec3 facing, float roughness, float n_v) {
     float smooth_part = 1.0 - roughness, low = 1.0 - max(n_v, 0.0);
     float b = smooth_part * min(smooth_part * smooth_part, exp2(-9.28 * n_v));
-    float rough_low = roughness * roughness * low;
-    b += min(0.14, 2.5 * facing.g) * (rough_low * rough_low);
+    b += min(0.19, 2.7 * facing.g) * (roughness * roughness) * (low * low * low);
     return facing + b * (1.0 - facing);
 }
 
