@@ -176,7 +176,7 @@ static char *run_import(const char *path, const struct gn_scene_limits *limits, 
 
 /* ---- kept output ---- */
 
-/* Followed by a hash of it. At most 128 MB in all: a card of a board is small. */
+/* At most 128 MB in all: a card of a board is small. */
 static const struct gn_kept_kind kept_kind = {
     .prefix = "draco-", .suffix = ".glb", .files_max = 4, .bytes_max = 32 << 20};
 
@@ -211,24 +211,10 @@ static struct gn_scene *load_kept(const char *path, const char *kept,
     struct gn_bytes file = {0};
     struct gn_err unused = {0};
     struct gn_scene *scene = NULL;
-    uint64_t hash = 0;
-    if (!gn_kept_read(&kept_kind, kept, &file)) return NULL;
-    const size_t size = file.size - sizeof hash;
-    if (file.size > sizeof hash) memcpy(&hash, file.data + size, sizeof hash);
-    if (file.size > sizeof hash && hash == gn_hash(GN_HASH_INIT, file.data, size))
-        scene = gn_scene_load_converted(path, file.data, size, limits, warnings, &unused);
+    if (gn_kept_read(&kept_kind, kept, &file))
+        scene = gn_scene_load_converted(path, file.data, file.size, limits, warnings, &unused);
     gn_bytes_finish(&file);
     return scene;
-}
-
-static void keep(const char *kept, const char *glb, size_t size) {
-    const uint64_t hash = gn_hash(GN_HASH_INIT, glb, size);
-    uint8_t *bytes = size < kept_kind.bytes_max ? malloc(size + sizeof hash) : NULL;
-    if (!bytes) return;
-    memcpy(bytes, glb, size);
-    memcpy(bytes + size, &hash, sizeof hash);
-    gn_kept_write(&kept_kind, kept, bytes, size + sizeof hash);
-    free(bytes);
 }
 
 /* An output that warnings came with is not kept: they would not come again. */
@@ -244,7 +230,7 @@ struct gn_scene *gn_import_load(const char *path, const struct gn_scene_limits *
     if (!glb) return NULL;
     const bool silent = warnings && warnings->count + warnings->dropped == warned;
     scene = gn_scene_load_converted(path, glb, size, limits, warnings, err);
-    if (scene && keeps && silent) keep(kept, glb, size);
+    if (scene && keeps && silent) gn_kept_write(&kept_kind, kept, glb, size);
     munmap(glb, size);
     return scene;
 }

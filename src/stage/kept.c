@@ -7,6 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/arena.h"
+#include "core/hash.h"
+
 static bool find_folder(char *out, size_t size) {
     const char *own = getenv("CACHE_DIRECTORY"), *base = getenv("XDG_CACHE_HOME"),
                *home = getenv("HOME");
@@ -72,10 +75,23 @@ void gn_kept_write(const struct gn_kept_kind *kind, const char *path, const void
     if (slash && slash > parent) *slash = '\0';
     mkdir(parent, 0700);
     mkdir(folder, 0700);
-    if (gn_file_replace(path, data, size, &unused)) bound_files(kind, folder);
+    const uint64_t hash = gn_hash(GN_HASH_INIT, data, size);
+    uint8_t *bytes = gn_xalloc(size + sizeof hash, 1);
+    if (size > 0) memcpy(bytes, data, size);
+    memcpy(bytes + size, &hash, sizeof hash);
+    if (gn_file_replace(path, bytes, size + sizeof hash, &unused)) bound_files(kind, folder);
+    free(bytes);
 }
 
 bool gn_kept_read(const struct gn_kept_kind *kind, const char *path, struct gn_bytes *out) {
     struct gn_err unused = {0};
-    return gn_file_read(path, kind->bytes_max, out, &unused);
+    uint64_t hash = 0;
+    if (!gn_file_read(path, kind->bytes_max + sizeof hash, out, &unused)) return false;
+    if (out->size >= sizeof hash) {
+        out->size -= sizeof hash;
+        memcpy(&hash, (const uint8_t *)out->data + out->size, sizeof hash);
+        if (hash == gn_hash(GN_HASH_INIT, out->data, out->size)) return true;
+    }
+    gn_bytes_finish(out);
+    return false;
 }

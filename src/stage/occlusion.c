@@ -7,7 +7,6 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
-#include "core/hash.h"
 #include "core/thread.h"
 #include "stage/kept.h"
 
@@ -121,34 +120,16 @@ static void begin_fade(struct gn_occluder *o, bool at_once) {
 static const struct gn_kept_kind kept_kind = {
     .prefix = "occlusion-", .suffix = ".bin", .files_max = 16, .bytes_max = 4 << 20};
 
-/* A file has a hash of what follows: texels, or nothing where the scene has none. */
+/* A file has texels, or nothing where the scene has none. */
 static bool read_kept(const char *path, size_t bytes, struct gn_occlusion_made *made) {
     struct gn_bytes file = {0};
-    uint64_t hash;
-    bool ok = gn_kept_read(&kept_kind, path, &file) &&
-              (file.size == sizeof hash || file.size == sizeof hash + bytes);
-    if (ok) {
-        const uint8_t *texels = (const uint8_t *)file.data + sizeof hash;
-        memcpy(&hash, file.data, sizeof hash);
-        ok = hash == gn_hash(GN_HASH_INIT, texels, file.size - sizeof hash);
-        if (ok && file.size > sizeof hash) {
-            made->texels = gn_xalloc(bytes, 1);
-            memcpy(made->texels, texels, bytes);
-        }
+    const bool ok = gn_kept_read(&kept_kind, path, &file) && (file.size == 0 || file.size == bytes);
+    if (ok && file.size > 0) {
+        made->texels = gn_xalloc(bytes, 1);
+        memcpy(made->texels, file.data, bytes);
     }
     gn_bytes_finish(&file);
     return ok;
-}
-
-static void keep(const char *path, size_t bytes, const struct gn_occlusion_made *made) {
-    uint64_t hash;
-    if (!made->texels) bytes = 0;
-    uint8_t *file = gn_xalloc(sizeof hash + bytes, 1);
-    if (bytes > 0) memcpy(file + sizeof hash, made->texels, bytes);
-    hash = gn_hash(GN_HASH_INIT, file + sizeof hash, bytes);
-    memcpy(file, &hash, sizeof hash);
-    gn_kept_write(&kept_kind, path, file, sizeof hash + bytes);
-    free(file);
 }
 
 /* ---- making ---- */
@@ -161,7 +142,8 @@ static struct gn_occlusion_made read_or_make(const struct gn_scene *scene, const
     const bool keeps = gn_kept_path(&kept_kind, gn_occlusion_key(scene, sky), bytes, path);
     if (keeps && read_kept(path, bytes, &made)) return made;
     made = gn_occlusion_make(scene, sky, work);
-    if (keeps && !(work->cancel && atomic_load(work->cancel))) keep(path, bytes, &made);
+    if (keeps && !(work->cancel && atomic_load(work->cancel)))
+        gn_kept_write(&kept_kind, path, made.texels, made.texels ? bytes : 0);
     return made;
 }
 

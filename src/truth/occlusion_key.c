@@ -59,7 +59,7 @@ static uint64_t hash_item(uint64_t h, const struct gn_pose *pose, uint32_t i, bo
     h = gn_hash(h, what, sizeof what);
     h = gn_hash(h, cut, sizeof cut);
     h = gn_hash(h, &pose->items[i].hash, sizeof pose->items[i].hash); /* its place, its weights */
-    h = hash_targets(h, geometry);
+    if (item->still) h = hash_targets(h, geometry);
     if (m->alpha == GN_ALPHA_MASK) h = hash_texture(h, scene, &m->textures[GN_TEXTURE_BASE], seen);
     if (m->shadow_catcher) h = hash_texture(h, scene, &m->textures[GN_TEXTURE_OCCLUSION], seen);
     return h;

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/arena.h"
 #include "core/clock.h"
@@ -21,13 +20,6 @@ enum { SIDE = 64, PIXELS = SIDE * SIDE };
 #define OPEN(...)                                                                                  \
     help_show((const char *const[]){"--size", "64x64", "--limit", "ahead_percent=100000",          \
                                     __VA_ARGS__, NULL})
-
-/* And wakes it, as what a button is behind would. */
-static void act(struct gn_show *show, enum gn_action_kind kind) {
-    static const uint64_t one = 1;
-    gn_show_act(&show->screen, &(struct gn_action){.kind = kind}, gn_clock_monotonic_ns());
-    assert_int_equal(write(gn_loader_fd(show->scenes.loader), &one, sizeof one), sizeof one);
-}
 
 /* ---- modes ---- */
 
@@ -71,7 +63,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     help_show_until_warm(show);
     size_t most = 0, least = SIZE_MAX;
     for (int i = 0; i < ahead; i++) { /* from all sides: lists have grown, and maps have pages */
-        act(show, GN_ACTION_NEXT);
+        help_show_act(show, GN_ACTION_NEXT);
         help_show_frames(show, 1);
         const size_t now = mallinfo2().uordblks;
         most = now > most ? now : most;
@@ -81,7 +73,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     const unsigned long allocations = gn_alloc_count();
     for (int i = 0; i < switches; i++) {
         const int next = (show->screen.kiosk.shown.mode + 1) % show->modes.count;
-        act(show, GN_ACTION_NEXT);
+        help_show_act(show, GN_ACTION_NEXT);
         help_show_frames(show, 1);
         assert_int_equal(show->screen.drawn.mode, next);
         const struct gn_light_opts *any = &show->screen.stage.shown.opts.shadow.any;
@@ -103,7 +95,7 @@ static void what_is_not_ready_keeps_the_old_picture(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--turntable", "10");
     help_show_frames(show, 1);
-    act(show, GN_ACTION_PREV); /* the last of the list: not made yet */
+    help_show_act(show, GN_ACTION_PREV); /* the last of the list: not made yet */
     const int wanted = show->screen.kiosk.wanted.mode;
     assert_int_equal(show->screen.looks.ready >> wanted & 1, 0);
     const int64_t begun_ns = gn_clock_monotonic_ns();
@@ -125,7 +117,7 @@ static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--no-animation");
     help_show_frames(show, 1);
-    act(show, GN_ACTION_PREV);
+    help_show_act(show, GN_ACTION_PREV);
     const int wanted = show->screen.kiosk.wanted.mode;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->screen.drawn.mode != wanted) {
@@ -139,7 +131,7 @@ static void flags_leave_one_technique(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--shadow", "hard");
     assert_int_equal(show->modes.count, 1);
-    act(show, GN_ACTION_NEXT);
+    help_show_act(show, GN_ACTION_NEXT);
     help_show_frames(show, 2);
     assert_int_equal(show->screen.kiosk.shown.mode, 0);
     gn_show_close(show);
@@ -149,7 +141,7 @@ static void the_page_names_the_scene_inside_the_program(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--shadow", "hard");
     help_show_frames(show, 1);
-    act(show, GN_ACTION_INFO);
+    help_show_act(show, GN_ACTION_INFO);
     help_show_frames(show, 1);
     if (!strstr(show->screen.text.page.text, "\nScene: default scene\n"))
         fail_msg("%s", show->screen.text.page.text);
@@ -164,18 +156,18 @@ static void pause_stands_and_blank_is_dark(void **state) {
     struct gn_show *show = OPEN("--shadow", "pcf", "--turntable", "90");
     help_show_until_warm(show);
     help_show_frames(show, 2);
-    act(show, GN_ACTION_PAUSE);
+    help_show_act(show, GN_ACTION_PAUSE);
     help_show_step(show);
     const int64_t stood_ns = show->screen.drawn.time_ns;
     while (show->screen.kiosk.caption || gn_show_wants_frame(&show->screen)) help_show_step(show);
     assert_int_equal(show->screen.drawn.time_ns, stood_ns);
     help_show_picture(show, before);
-    act(show, GN_ACTION_BLANK);
+    help_show_act(show, GN_ACTION_BLANK);
     help_show_step(show);
     assert_true(show->screen.stage.display.screen.blank);
     assert_false(gn_show_wants_frame(&show->screen));
     const uint64_t dark = show->counts.frames;
-    act(show, GN_ACTION_NEXT_CAMERA); /* lights it, and no more */
+    help_show_act(show, GN_ACTION_NEXT_CAMERA); /* lights it, and no more */
     help_show_step(show);
     assert_false(show->screen.stage.display.screen.blank);
     assert_int_equal(show->screen.kiosk.camera, 0);
@@ -198,7 +190,7 @@ static void a_fade_begins_with_the_old_picture(void **state) {
     assert_int_equal(show->modes.count, 2);
     help_show_until_warm(show);
     help_show_picture(show, old);
-    act(show, GN_ACTION_NEXT); /* no shadows at all */
+    help_show_act(show, GN_ACTION_NEXT); /* no shadows at all */
     while (show->screen.drawn.mode == show->modes.first) help_show_step(show);
     help_show_picture(show, first);
     unsigned worst = 0, all = 0;
@@ -226,7 +218,7 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
         OPEN("assets/bench/s1.glb", "assets/sundial.glb", "--shadow", "pcf", "--turntable", "10");
     help_show_until_warm(show);
     const char *name = show->screen.stage.scene->name;
-    act(show, GN_ACTION_NEXT_SCENE);
+    help_show_act(show, GN_ACTION_NEXT_SCENE);
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (show->screen.drawn.scene == 0) {
         const uint64_t made = show->screen.stage.gl->programs.made;
@@ -239,7 +231,7 @@ static void the_next_scene_comes_when_it_is_whole(void **state) {
     assert_null(show->screen.staged.loaded);
     assert_int_equal(show->screen.stage.scene->triangle_count > 0, 1);
     help_show_until_warm(show);
-    act(show, GN_ACTION_NEXT_SCENE); /* and back */
+    help_show_act(show, GN_ACTION_NEXT_SCENE); /* and back */
     while (show->screen.drawn.scene == 1) help_show_step(show);
     gn_show_close(show);
 }
@@ -253,7 +245,7 @@ static void a_bad_scene_changes_nothing(void **state) {
     struct gn_show *show =
         OPEN("assets/bench/s1.glb", path, "--shadow", "pcf", "--turntable", "10");
     help_show_frames(show, 2);
-    act(show, GN_ACTION_NEXT_SCENE);
+    help_show_act(show, GN_ACTION_NEXT_SCENE);
     assert_true(gn_kiosk_waits(&show->screen.kiosk));
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (gn_kiosk_waits(&show->screen.kiosk)) {
@@ -271,7 +263,7 @@ static void the_end_does_not_wait_for_a_scene(void **state) {
     (void)state;
     struct gn_show *show = OPEN("assets/bench/s1.glb", "assets/bench/s2.glb", "--shadow", "pcf");
     help_show_frames(show, 1);
-    act(show, GN_ACTION_NEXT_SCENE);
+    help_show_act(show, GN_ACTION_NEXT_SCENE);
     help_show_step(show);
     assert_true(gn_loader_is_busy(show->scenes.loader) || show->screen.staged.loaded);
     const int64_t begun_ns = gn_clock_process_cpu_ns();

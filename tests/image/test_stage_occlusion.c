@@ -194,14 +194,14 @@ static void what_was_made_is_read_again_unless_it_is_damaged(void **state) {
 
     uint8_t *bytes = (uint8_t *)(uintptr_t)file.data;
     assert_int_equal(file.size, 8 + texel_bytes());
-    assert_memory_equal(bytes + 8, made, texel_bytes());
-    bytes[8] ^= 1; /* a file of a damaged disk */
+    assert_memory_equal(bytes, made, texel_bytes());
+    bytes[0] ^= 1; /* a file of a damaged disk */
     assert_true(gn_file_replace(path, bytes, file.size, &err));
     int8_t *again = make_complete();
     assert_memory_equal(again, made, texel_bytes());
     free(again);
-    const uint64_t hash = gn_hash(GN_HASH_INIT, bytes + 8, texel_bytes());
-    memcpy(bytes, &hash, sizeof hash); /* that which is whole is what is shown */
+    const uint64_t hash = gn_hash(GN_HASH_INIT, bytes, texel_bytes());
+    memcpy(bytes + texel_bytes(), &hash, sizeof hash); /* that which is whole is what is shown */
     assert_true(gn_file_replace(path, bytes, file.size, &err));
     again = make_complete();
     assert_int_equal(largest_step(again, made), 1);

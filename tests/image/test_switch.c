@@ -4,7 +4,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/clock.h"
 #include "core/memory.h"
@@ -14,17 +13,6 @@
 
 enum { SIDE = 64, PIXELS = SIDE * SIDE };
 #define PATIENCE_NS (60 * GN_NS_PER_S)
-
-#define OPEN(...)                                                                                  \
-    help_show((const char *const[]){"--size", "64x64", "--limit", "ahead_percent=100000",          \
-                                    __VA_ARGS__, NULL})
-
-/* And wakes it, as what a button is behind would. */
-static void act(struct gn_show *show, enum gn_action_kind kind) {
-    static const uint64_t one = 1;
-    gn_show_act(&show->screen, &(struct gn_action){.kind = kind}, gn_clock_monotonic_ns());
-    assert_int_equal(write(gn_loader_fd(show->scenes.loader), &one, sizeof one), sizeof one);
-}
 
 /* What programs of other modes take, by dropping them, of all that is taken without. */
 static double share_of_idle(struct gn_show *show) {
@@ -36,7 +24,8 @@ static double share_of_idle(struct gn_show *show) {
 static void programs_of_other_modes_are_within_their_share(void **state) {
     (void)state;
     static uint8_t before[4 * PIXELS], after[4 * PIXELS];
-    struct gn_show *show = OPEN("--limit", "ahead_percent=10", "--no-animation");
+    struct gn_show *show = help_show((const char *const[]){
+        "--size", "64x64", "--limit", "ahead_percent=10", "--no-animation", NULL});
     gn_memory_pretend_mb(1024); /* a board */
     help_show_until_warm(show);
     assert_int_equal(show->screen.looks.made, (1u << show->modes.count) - 1);
@@ -49,7 +38,7 @@ static void programs_of_other_modes_are_within_their_share(void **state) {
         uint64_t *most = &rounds[i / show->modes.count];
         const int next = (show->screen.kiosk.shown.mode + 1) % show->modes.count;
         const int64_t begun_ns = gn_clock_process_cpu_ns();
-        act(show, GN_ACTION_NEXT);
+        help_show_act(show, GN_ACTION_NEXT);
         while (show->screen.drawn.mode != next) {
             help_show_step(show);
             assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
@@ -88,13 +77,14 @@ static int64_t frame_ns(struct gn_show *show) {
 static void a_switch_takes_no_more_than_two_frames(void **state) {
     (void)state;
     enum { ROUNDS = 3 };
-    struct gn_show *show = OPEN("--size", "640x360", "--turntable", "10");
+    struct gn_show *show = help_show((const char *const[]){
+        "--size", "640x360", "--limit", "ahead_percent=100000", "--turntable", "10", NULL});
     int64_t switch_ns[GN_KIOSK_MODES_MAX], steady_ns[GN_KIOSK_MODES_MAX][ROUNDS] = {{0}};
     for (int m = 0; m < show->modes.count; m++) switch_ns[m] = INT64_MAX;
     help_show_until_warm(show);
     for (int i = 0; i < ROUNDS * show->modes.count; i++) {
         const int round = i / show->modes.count;
-        act(show, GN_ACTION_NEXT);
+        help_show_act(show, GN_ACTION_NEXT);
         const int64_t now_ns = frame_ns(show);
         const int mode = show->screen.drawn.mode;
         if (now_ns < switch_ns[mode]) switch_ns[mode] = now_ns;

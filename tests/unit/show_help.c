@@ -2,6 +2,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "core/clock.h"
 #include "kiosk/private.h"
@@ -56,6 +57,12 @@ struct gn_show *help_show_of(const char *config, const char *const more[]) {
 void help_show_step(struct gn_show *show) {
     struct gn_err err = {0};
     if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+}
+
+void help_show_act(struct gn_show *show, enum gn_action_kind kind) {
+    static const uint64_t one = 1;
+    gn_show_act(&show->screen, &(struct gn_action){.kind = kind}, gn_clock_monotonic_ns());
+    assert_int_equal(write(gn_loader_fd(show->scenes.loader), &one, sizeof one), sizeof one);
 }
 
 void help_show_frames(struct gn_show *show, unsigned count) {

@@ -13,6 +13,8 @@ struct gn_show *help_show_of(const char *config, const char *const more[]);
 /* As help_show(), but perhaps before the first scene is there, as any kiosk on a slow machine. */
 struct gn_show *help_show_begun(const char *const more[]);
 void help_show_step(struct gn_show *show);
+/* Does it and wakes the kiosk, as what a button is behind would. */
+void help_show_act(struct gn_show *show, enum gn_action_kind kind);
 /* Steps until so many frames more are drawn, for at most a minute of the clock. */
 void help_show_frames(struct gn_show *show, unsigned count);
 /* Steps until a frame is drawn and nothing is made ahead any more, for at most three minutes of
