@@ -46,6 +46,25 @@ static void test_options_of_a_light_beat_those_of_all(void **state) {
     gn_plan_end(&f);
 }
 
+static void test_an_unknown_technique_is_told_with_the_one_that_is_used(void **state) {
+    (void)state;
+    static const enum gn_technique used[] = {GN_TECHNIQUE_PCF, GN_TECHNIQUE_HARD};
+    for (int i = 0; i < 2; i++) {
+        struct gn_plan_fixture f;
+        struct gn_warnings warnings = {0};
+        gn_plan_begin(&f, GN_EVERY_CAP);
+        f.scene->lights[0].technique = "velvet";
+        if (i > 0) GN_LIGHT_SET(&f.opts.shadow.any, technique, used[i]);
+        const struct gn_plan *plan = gn_frame_build(f.frame, &f.pose, &f.opts, &warnings);
+        assert_int_equal(view_of(plan, 0)->technique, used[i]);
+        assert_int_equal(warnings.count, 1);
+        const char *name = strstr(warnings.text[0], "'velvet' is not a known technique; using ");
+        assert_non_null(name);
+        assert_string_equal(strrchr(name, ' ') + 1, gn_techniques[used[i]].name);
+        gn_plan_end(&f);
+    }
+}
+
 static void test_a_light_has_the_colour_that_is_set_or_is_off(void **state) {
     (void)state;
     struct gn_plan_fixture f;
@@ -300,6 +319,7 @@ static void test_maps_are_cleared_to_the_far_end_but_in_a_lesson(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_options_of_a_light_beat_those_of_all),
+        cmocka_unit_test(test_an_unknown_technique_is_told_with_the_one_that_is_used),
         cmocka_unit_test(test_a_light_has_the_colour_that_is_set_or_is_off),
         cmocka_unit_test(test_a_light_can_be_looked_from),
         cmocka_unit_test(test_faces_of_all_casters_are_as_set),
