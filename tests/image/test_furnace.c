@@ -128,6 +128,17 @@ static void test_grey_metals_lose_what_microfacets_lose(void **state) {
             fail_msg("roughness %d/4: %.4f instead of %.4f", i + 1, here, wanted);
     }
     gn_picture_finish(&picture);
+    /* At an angle one of roughness 1 returns more, by the same samples: at these cosines. */
+    static const double at[2][2] = {{0.5, 0.316}, {0.3, 0.356}};
+    picture = draw_at(4, scenes[GREY], uniform, "--occlusion", "none");
+    for (int i = 0; i < 2; i++) {
+        const double middle = 4 * (WIDTH / 2 + (8 - ROUGHNESSES / 2) * (WIDTH / 10.0)),
+                     beside = 4 * 0.45 * WIDTH / 10 * sqrt(1 - at[i][0] * at[i][0]);
+        const double here = (double)*gn_picture_at(&picture, (int)(middle - beside), 2 * HEIGHT);
+        print_message("cosine %.1f: %.4f, by GGX %.4f\n", at[i][0], here, at[i][1]);
+        if (fabs(here - at[i][1]) > 0.07 * at[i][1]) fail_msg("cosine %.1f", at[i][0]);
+    }
+    gn_picture_finish(&picture);
 }
 
 /* Share of white light from all sides that a surface of the reflectance 0.04 returns, as a sphere
