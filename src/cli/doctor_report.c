@@ -1,7 +1,6 @@
 #include "cli/doctor_report.h"
 
 #include <jansson.h>
-#include <string.h>
 
 #include "cli/doctor_input.h"
 #include "core/json.h"

@@ -3,7 +3,6 @@
  * is made current, so that gl/ can name the GPU in its error. */
 #include <dlfcn.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/arena.h"
 #include "display/egl.h"

@@ -4,7 +4,6 @@
  * the sphere walks a tree and stops at nodes that are small beside the scale on which the weight
  * changes (Barnes, Hut 1986): deterministic and free of noise, and uniform light stays exact, since
  * the sum of the weights divides. */
-#include <math.h>
 #include <pthread.h>
 #include <string.h>
 

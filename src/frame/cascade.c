@@ -1,5 +1,4 @@
 #include <math.h>
-#include <string.h>
 
 #include "core/hash.h"
 #include "frame/private.h"

@@ -3,7 +3,6 @@
  * name. */
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "core/opener.h"
 #include "import/import.h"

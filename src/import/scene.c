@@ -1,6 +1,5 @@
 /* Conversion of one scene: assimp reads it, then nodes, meshes, lights and cameras are written. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "import/private.h"

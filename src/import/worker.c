@@ -2,7 +2,6 @@
  * frees nothing; its memory goes with the process. */
 #include <signal.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "core/arena.h"
-#include "core/clock.h"
 #include "input/private.h"
 
 #define NEVER INT64_MAX

@@ -1,7 +1,6 @@
 /* Texts on the picture: captions of changes, the information page, and a problem of the
  * configuration as long as it lasts. */
 #include <stdio.h>
-#include <string.h>
 
 #include "core/clock.h"
 #include "core/file.h"

@@ -2,7 +2,6 @@
 #include "shadow/private.h"
 
 #include <math.h>
-#include <string.h>
 
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world) {
     glm_mat4_copy(clip_from_world, eye->clip_from_world);

@@ -1,6 +1,5 @@
 #include "display/kms/kms.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
