@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "bake/private.h"
 #include "bake/reorder.h"
@@ -70,11 +69,6 @@ static bool take_json(struct gn_baker *b) {
     return true;
 }
 
-static bool run(struct gn_baker *b, struct gn_bytes *out) {
-    return take_json(b) && gn_bake_keep_all(b) && gn_bake_meshes(b) && gn_bake_nodes(b) &&
-           gn_bake_keep_used(b) && gn_bake_images(b) && gn_bake_write(b, out);
-}
-
 bool gn_bake(const struct gn_bake_opts *opts, const void *data, size_t size, struct gn_bytes *out,
              struct gn_bake_report *report, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_baker b = {.opts = opts, .report = report, .warnings = warnings, .err = err};
@@ -84,7 +78,9 @@ bool gn_bake(const struct gn_bake_opts *opts, const void *data, size_t size, str
         return gn_fail(err, "bake needs libmeshoptimizer, which this build does not have");
     b.in = gn_document_open(opts->path, data, size, opts->limits, warnings, err);
     if (!b.in) return false;
-    const bool done = run(&b, out);
+    const bool done = take_json(&b) && gn_bake_keep_all(&b) && gn_bake_meshes(&b) &&
+                      gn_bake_nodes(&b) && gn_bake_keep_used(&b) && gn_bake_images(&b) &&
+                      gn_bake_write(&b, out);
     json_decref(b.root);
     json_decref(b.known);
     json_decref(b.accessors);

@@ -118,14 +118,6 @@ static void print_group(FILE *to, const struct gn_section_row *section, bool sha
     }
 }
 
-static void print_groups(FILE *to, enum gn_command command) {
-    for (int place = 1; place <= GN_SECTION_COUNT; place++)
-        for (int i = 0; i < GN_SECTION_COUNT; i++)
-            for (int shadows = 0; shadows < 2 && gn_section_rows[i].place == place; shadows++)
-                print_group(to, &gn_section_rows[i], shadows, command);
-    print_group(to, NULL, false, command);
-}
-
 /* ---- --help -------------------------------------------------------------------------------- */
 
 void gn_help_print(FILE *to, enum gn_command command) {
@@ -154,7 +146,11 @@ void gn_help_print(FILE *to, enum gn_command command) {
         snprintf(tag, sizeof tag, "%s%s%s", row->name, row->words[0] ? " " : "", row->words);
         print_entry(to, tag, row->what);
     }
-    print_groups(to, command);
+    for (int place = 1; place <= GN_SECTION_COUNT; place++)
+        for (int i = 0; i < GN_SECTION_COUNT; i++)
+            for (int shadows = 0; shadows < 2 && gn_section_rows[i].place == place; shadows++)
+                print_group(to, &gn_section_rows[i], shadows, command);
+    print_group(to, NULL, false, command);
     if (command != GN_COMMAND_AUTO && command != GN_COMMAND_SHOW) return;
     const char *action;
     fputs("\nin a window:\n", to);

@@ -16,11 +16,6 @@ enum { WIDTH = 96, ALL_MAX = 64 };
 
 /* ---- printing ---- */
 
-static void print_list(void) {
-    for (int i = 0; i < gn_lesson_count; i++)
-        printf("%-16s %s\n", gn_lessons[i].name, gn_lessons[i].title);
-}
-
 static void print_heading(const struct gn_lesson *lesson) {
     int at = 0;
     printf("%s: %s\n", lesson->name, lesson->title);
@@ -105,17 +100,13 @@ static bool measure(const struct gn_options *options, const struct gn_lesson *le
     return ok;
 }
 
-static bool make_folder(const char *path, struct gn_err *err) {
-    if (!path || mkdir(path, 0777) == 0 || errno == EEXIST) return true;
-    return gn_fail(err, "%s: cannot make this folder: %s", path, strerror(errno));
-}
-
 static bool run_offline(const struct gn_options *options, const struct gn_lesson *first, int count,
                         struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_settings *o = options->settings;
     struct gn_lesson_result results[ALL_MAX];
     json_t *list = json_array();
-    bool ok = make_folder(o->run.out, err);
+    bool ok = !o->run.out || mkdir(o->run.out, 0777) == 0 || errno == EEXIST ||
+              gn_fail(err, "%s: cannot make this folder: %s", o->run.out, strerror(errno));
     for (int i = 0; ok && i < count; i++) {
         ok = measure(options, &first[i], &results[i], warnings, err);
         if (ok && o->run.json) json_array_append_new(list, make_json(&results[i]));
@@ -137,7 +128,8 @@ bool gn_cli_lesson(const struct gn_options *options, struct gn_warnings *warning
     const struct gn_settings *o = options->settings;
     const char *name = options->words[0];
     if (strcmp(name, "list") == 0) {
-        print_list();
+        for (int i = 0; i < gn_lesson_count; i++)
+            printf("%-16s %s\n", gn_lessons[i].name, gn_lessons[i].title);
         return true;
     }
     const bool all = strcmp(name, "all") == 0;

@@ -62,13 +62,6 @@ static void add_version(struct report *r, const struct gn_take *t, const char *w
     add_line(r, "%s: version %.*s%s", what, number, version, text);
 }
 
-static void add_versions(struct report *r, const struct gn_take *t) {
-    const bool has_other = t->before[0] && strcmp(t->before, t->shown) != 0;
-    add_line(r, "%s", "");
-    add_version(r, t, "Shown now", t->shown);
-    add_version(r, t, "The version before", has_other ? t->before : "");
-}
-
 /* A stick that cannot be written to has no report, which is no error. Beside the versions there is
  * always one. */
 static void save_report(const struct report *r, const struct gn_take *t, const char *dir,
@@ -83,27 +76,14 @@ static void save_report(const struct report *r, const struct gn_take *t, const c
 
 /* ---- taking --------------------------------------------------------------------------------- */
 
-/* One error alone is the reason that stands above. */
-static void add_findings(struct report *r, const struct gn_take_findings *found) {
-    for (int i = 0; found->errors.count > 1 && i < found->errors.count; i++)
-        add_line(r, "- %s", found->errors.items[i].text);
-    for (int i = 0; i < found->warnings.count; i++)
-        add_line(r, "- warning: %s", found->warnings.text[i]);
-}
-
-/* The first of the errors, and how many there are. */
-static bool fail_findings(const struct gn_take_findings *found, struct gn_err *err) {
-    const int count = found->errors.count;
-    if (count == 1) return gn_fail(err, "%s", found->errors.items[0].text);
-    return gn_fail(err, "%d errors; the first: %s", count, found->errors.items[0].text);
-}
-
 static bool take_fresh(const struct gn_options *o, struct gn_take *t, struct report *r,
                        struct gn_take_findings *found, struct gn_err *err) {
     if (!gn_take_copy(t, err)) return false;
     if (!gn_take_check(o, t->path, found)) {
         gn_take_drop(t);
-        return fail_findings(found, err);
+        const char *first = found->errors.items[0].text;
+        if (found->errors.count == 1) return gn_fail(err, "%s", first);
+        return gn_fail(err, "%d errors; the first: %s", found->errors.count, first);
     }
     if (!gn_take_keep(t, err)) return false;
     const char *plural = t->count == 1 ? "" : "s";
@@ -137,10 +117,17 @@ static bool take_stick(const struct gn_options *o, struct gn_take *t, const char
         break;
     }
     if (!ok) add_line(&report, "This folder was NOT taken over: %s", err->text);
-    add_findings(&report, &findings);
-    for (int i = 0; i < findings.warnings.count; i++)
+    /* one error alone is the reason that stands above */
+    for (int i = 0; findings.errors.count > 1 && i < findings.errors.count; i++)
+        add_line(&report, "- %s", findings.errors.items[i].text);
+    for (int i = 0; i < findings.warnings.count; i++) {
+        add_line(&report, "- warning: %s", findings.warnings.text[i]);
         gn_warn(warnings, "%s", findings.warnings.text[i]);
-    add_versions(&report, t);
+    }
+    add_line(&report, "%s", "");
+    add_version(&report, t, "Shown now", t->shown);
+    const bool has_other = t->before[0] && strcmp(t->before, t->shown) != 0;
+    add_version(&report, t, "The version before", has_other ? t->before : "");
     save_report(&report, t, o->settings->kiosk.content, stick);
     return ok;
 }
