@@ -2,7 +2,6 @@
  * its middle, so that no energy is lost, and a sun of one pixel stays one. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/arena.h"
 #include "environment/private.h"
@@ -93,11 +92,6 @@ static void fill_leaf(const struct gn_sphere *sphere, struct gn_sphere_node *lea
     }
 }
 
-static void add_child(struct gn_sphere_node *node, const struct gn_sphere_node *child) {
-    for (int k = 0; k < 3; k++) node->sum[k] += child->sum[k];
-    node->solid_angle += child->solid_angle;
-}
-
 void gn_sphere_sum(struct gn_sphere *sphere) {
     for (int level = GN_SPHERE_LEVELS - 2; level >= 0; level--)
         for (int face = 0; face < 6; face++)
@@ -110,8 +104,11 @@ void gn_sphere_sum(struct gn_sphere *sphere) {
                     const struct gn_sphere_node *child =
                         gn_sphere_node(sphere, level + 1, face, 2 * x + c % 2, 2 * y + c / 2);
                     const float light = gn_luminance(child->sum) + 1e-6f * child->solid_angle;
-                    add_child(node, child);
-                    for (int k = 0; k < 3; k++) toward[k] += light * child->direction[k];
+                    node->solid_angle += child->solid_angle;
+                    for (int k = 0; k < 3; k++) {
+                        node->sum[k] += child->sum[k];
+                        toward[k] += light * child->direction[k];
+                    }
                 }
                 const float length = sqrtf(gn_dot(toward, toward));
                 for (int k = 0; k < 3; k++)

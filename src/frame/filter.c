@@ -48,10 +48,6 @@ static uint32_t first_reach_px(const struct gn_shadow_view *view) {
     return px;
 }
 
-static bool is_left_out(const struct gn_shadow_view *view, const struct gn_filter_stage *stage) {
-    return stage->reach_px > first_reach_px(view);
-}
-
 uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) {
     const uint32_t what[] = {view->technique, view->moments};
     uint64_t h = gn_hash(GN_HASH_INIT, &view->raster.tiles[tile].content_hash, sizeof(uint64_t));
@@ -227,7 +223,7 @@ void gn_frame_filter_passes(struct gn_frame *frame, uint32_t slot) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const struct gn_filter_row *filter = gn_technique_filter(view->technique, view->moments);
     for (uint32_t i = 0; i < filter->count; i++) {
-        if (is_left_out(view, &filter->stages[i])) continue;
+        if (filter->stages[i].reach_px > first_reach_px(view)) continue;
         for (uint32_t tile = 0; tile < view->map.tile_count; tile++)
             add_stage_pass(frame, slot, tile, i);
     }

@@ -17,13 +17,6 @@ static void set_scale(struct gn_shadow_view *view) {
     view->penumbra.bias = 1.0f - view->penumbra.scale;
 }
 
-static uint32_t points_of_frame(const struct gn_frame *frame, const struct gn_frame_opts *opts,
-                                uint32_t slot) {
-    const bool is_floor = frame->floor.is_apart && slot == frame->floor.slot;
-    return opts->shadow.gather_points && is_floor ? gn_frame_floor_points(frame)
-                                                  : opts->shadow.gather_points;
-}
-
 enum { FADE_FRAMES = 20 };
 
 /* A floor first shows the points of one frame, and goes on towards all of them in steps that are
@@ -50,9 +43,11 @@ void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *
         struct gn_shadow_lamp *lamp = &view->lamp;
         const uint64_t hash = view->raster.tiles[0].content_hash;
         if (lamp->count == 0) continue;
+        const bool is_floor = frame->floor.is_apart && slot == frame->floor.slot;
         const uint32_t before =
-                           frame->gathered[slot].hash == hash ? frame->gathered[slot].drawn : 0,
-                       more = points_of_frame(frame, opts, slot);
+            frame->gathered[slot].hash == hash ? frame->gathered[slot].drawn : 0;
+        uint32_t more = opts->shadow.gather_points;
+        if (more && is_floor) more = gn_frame_floor_points(frame);
         lamp->drawn = more && before + more < lamp->count ? before + more : lamp->count;
         set_scale(view);
         if (opts->all_seen) continue; /* it is not drawn */

@@ -157,22 +157,16 @@ static void add_paged_passes(struct gn_frame *frame, const struct gn_pose *pose,
     gn_frame_end_pass(frame);
 }
 
-/* ---- no map, but what the caller has computed ---- */
-
-static void add_given_pass(struct gn_frame *frame, uint32_t slot) {
-    mat4 nowhere = GLM_MAT4_IDENTITY_INIT;
-    begin_pass(frame, GN_PASS_GIVEN, slot, 0, 0, nowhere);
-    gn_frame_end_pass(frame);
-}
-
 void gn_frame_add_maps(struct gn_frame *frame, const struct gn_pose *pose,
                        const struct gn_frame_opts *opts) {
     for (uint32_t slot = 0; slot < frame->view_count; slot++) {
         struct gn_shadow_view *view = &frame->shadows[slot];
         const bool in_stencil = view->encoding == GN_ENCODING_STENCIL,
                    paged = view->raster.drawn.paged;
-        if (view->encoding == GN_ENCODING_SCREEN) {
-            add_given_pass(frame, slot);
+        if (view->encoding == GN_ENCODING_SCREEN) { /* no map, but what the caller has computed */
+            mat4 nowhere = GLM_MAT4_IDENTITY_INIT;
+            begin_pass(frame, GN_PASS_GIVEN, slot, 0, 0, nowhere);
+            gn_frame_end_pass(frame);
             continue;
         }
         if (paged && !in_stencil) {

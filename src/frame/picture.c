@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "blocks.glsl"
 #include "core/srgb.h"
@@ -53,12 +52,6 @@ static void blend_item(struct gn_frame *frame, const struct gn_pose *pose,
     }
 }
 
-static void begin_blend_pass(struct gn_frame *frame) {
-    struct gn_pass *blend = gn_frame_lit_pass(frame, "blend", 0);
-    blend->picture.blend = GN_BLEND_ALPHA;
-    blend->depth_write = false;
-}
-
 /* Farthest first; of an item that is seen from both sides, and is no plane, its back faces first.
  * Of a watertight body of glass those have no colour: light that passes it enters as often as it
  * leaves, and is tinted once for both. */
@@ -90,7 +83,11 @@ static void add_blend_passes(struct gn_frame *frame, const struct gn_pose *pose,
                 in_pass = open = false;
                 tint_item(frame, pose, seen, item);
             }
-            if (!in_pass) begin_blend_pass(frame);
+            if (!in_pass) {
+                struct gn_pass *blend = gn_frame_lit_pass(frame, "blend", 0);
+                blend->picture.blend = GN_BLEND_ALPHA;
+                blend->depth_write = false;
+            }
             blend_item(frame, pose, &seen, item, &open);
             in_pass = open;
             if (!in_pass) gn_frame_end_pass(frame);
@@ -120,11 +117,6 @@ static void add_further_planes(struct gn_frame *frame, const struct gn_pose *pos
 }
 
 /* ---- all of them ---- */
-
-/* The last pass lays it over the background: that has no tone. */
-static bool draws_over_nothing(const struct gn_frame *frame) {
-    return frame->plan.tones_sum || frame->plan.transparent;
-}
 
 /* A grey wall in the light of the environment, on the mean of all sides: a shadow on an unseen
  * floor is seen on it, and so are black and white models. */
@@ -164,7 +156,8 @@ void gn_frame_add_picture(struct gn_frame *frame, const struct gn_pose *pose,
     struct gn_pass *pass = gn_frame_lit_pass(frame, aov == GN_AOV_COLOR ? "opaque" : "aov", 0);
     const uint32_t first = pass->first_draw;
     pass->clear.area = GN_CLEAR_ALL;
-    if (!draws_over_nothing(frame)) {
+    /* else the last pass lays it over the background, which has no tone */
+    if (!frame->plan.tones_sum && !frame->plan.transparent) {
         vec3 background;
         background_of(frame, opts, background);
         for (int k = 0; k < 3; k++) {

@@ -2,12 +2,6 @@
 #include "frame/private.h"
 #include "shadow/cascade.h"
 
-/* Maps are dealt group by group: only the last group that has any may have fewer than
- * GN_SHADOWS_MAX. */
-static struct gn_frame_light *light_of_map(struct gn_frame *frame, uint32_t slot) {
-    return &frame->lights[frame->groups[slot / GN_SHADOWS_MAX].first + slot % GN_SHADOWS_MAX];
-}
-
 void gn_frame_add_plane_slots(struct gn_frame *frame) {
     uint32_t planar = 0;
     for (uint32_t g = 0; g < frame->group_count; g++) {
@@ -54,7 +48,10 @@ uint32_t gn_frame_plane_of_slot(const struct gn_frame *frame, uint32_t slot) {
 struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot) {
     uint32_t plane;
     if (frame->floor.is_apart && slot == frame->floor.slot) return &frame->lights[0];
-    return light_of_map(frame, first_slot(frame, slot, &plane));
+    /* maps are dealt group by group: only the last group that has any may have fewer than
+     * GN_SHADOWS_MAX */
+    const uint32_t map = first_slot(frame, slot, &plane);
+    return &frame->lights[frame->groups[map / GN_SHADOWS_MAX].first + map % GN_SHADOWS_MAX];
 }
 
 uint32_t gn_frame_most_px(const struct gn_frame *frame, const struct gn_frame_light *light,

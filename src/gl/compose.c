@@ -118,12 +118,6 @@ static int lookup_of(const struct gn_program_key *key, int i) {
     }
 }
 
-/* How many points a constant array has: rings of four share one, opposites are computed. */
-static int points_of(const struct gn_light_key *light) {
-    return gn_techniques[light->technique].taps == GN_TAPS_RINGS ? light->taps / 4
-                                                                 : light->taps / 2;
-}
-
 /* TAPS_DISK_8 and the like: the points of all counts that lights have, once. */
 static void add_points(const struct gn_program_key *key, struct gn_gl_text *out) {
     bool any = false;
@@ -139,7 +133,8 @@ static void add_points(const struct gn_program_key *key, struct gn_gl_text *out)
             gn_gl_text_add(out, "const bool TAPS_TURN = %s;\n", key->taps_turn ? "true" : "false");
         any = true;
         float points[GN_TAPS_MAX / 2][2];
-        const int count = points_of(light);
+        /* rings of four share a point, opposites are computed */
+        const int count = light->taps / (kind == GN_TAPS_RINGS ? 4 : 2);
         if (kind == GN_TAPS_RINGS)
             gn_taps_rings(count, points);
         else

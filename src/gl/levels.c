@@ -14,12 +14,8 @@ static const GLenum formats[GN_PACKING_COUNT][2] = {
     [GN_PACKING_EAC_RG_SIGNED] = {GL_COMPRESSED_SIGNED_RG11_EAC, GL_COMPRESSED_SIGNED_RG11_EAC},
 };
 
-static void take_white_texel(struct gn_gl_picture *p) {
-    static const uint8_t white[4] = {255, 255, 255, 255};
-    p->image = (struct gn_image){.width_px = 1, .height_px = 1, .rgba = white};
-}
-
 bool gn_gl_levels_open(struct gn_gl *gl, uint32_t index) {
+    static const uint8_t white[4] = {255, 255, 255, 255};
     struct gn_gl_picture *p = &gl->scene.upload.picture;
     const struct gn_image whole = p->image;
     const uint32_t px[2] = {whole.width_px, whole.height_px};
@@ -39,7 +35,7 @@ bool gn_gl_levels_open(struct gn_gl *gl, uint32_t index) {
                     : "image %u: %ux%u pixels of %s, which this OpenGL does not read; shown "
                       "in white",
                 index, px[0], px[1], name);
-        take_white_texel(p);
+        p->image = (struct gn_image){.width_px = 1, .height_px = 1, .rgba = white};
         return false;
     }
     if (first > 0)
