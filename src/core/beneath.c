@@ -18,12 +18,6 @@
 
 enum { READ_FLAGS = O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC };
 
-static int open_at2(int folder, const char *name) {
-    const struct open_how how = {.flags = READ_FLAGS,
-                                 .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
-    return (int)syscall(SYS_openat2, folder, name, &how, sizeof how);
-}
-
 /* The name of the descriptor in /proc, and what the kernel says that it leads to. */
 struct place {
     char link[32], path[PATH_MAX];
@@ -57,7 +51,9 @@ static int open_checked(int folder, const char *name) {
 }
 
 static int open_exactly(int top, const char *name) {
-    const int fd = open_at2(top, name);
+    const struct open_how how = {.flags = READ_FLAGS,
+                                 .resolve = RESOLVE_BENEATH | RESOLVE_NO_MAGICLINKS};
+    const int fd = (int)syscall(SYS_openat2, top, name, &how, sizeof how);
     if (fd >= 0) return fd;
     const bool is_plain = errno != EXDEV && errno != ELOOP && errno != EAGAIN && errno != ENOSYS &&
                           errno != EPERM && errno != EINVAL;

@@ -131,12 +131,6 @@ static void take_event(struct gn_devices *devices, struct gn_device *d, const st
         gn_keys_click(devices->keys, GN_KEY_TAP, time_ns);
 }
 
-static void collect_moves(struct gn_devices *devices, struct gn_device *d) {
-    const bool is_mouse = d->touch.opts.kind == GN_TOUCH_MOUSE;
-    gn_touch_add(is_mouse ? &devices->mouse : &devices->glass, &d->touch.moves);
-    d->touch.moves = (struct gn_touch_moves){0};
-}
-
 /* Reads all pending events. Returns true if the device is gone. */
 static bool read_device(struct gn_devices *devices, struct gn_device *d, int64_t now_ns) {
     struct input_event events[64];
@@ -184,11 +178,14 @@ static void open_devices(struct gn_input *input, const struct gn_input_world *wo
 static void read_devices(struct gn_input *input, int64_t now_ns) {
     struct gn_devices *devices = &input->devices;
     bool gone = false;
-    for (int i = 0; i < GN_DEVICES_MAX; i++)
-        if (devices->list[i].readable) {
-            gone |= read_device(devices, &devices->list[i], now_ns);
-            collect_moves(devices, &devices->list[i]);
-        }
+    for (int i = 0; i < GN_DEVICES_MAX; i++) {
+        struct gn_device *d = &devices->list[i];
+        if (!d->readable) continue;
+        gone |= read_device(devices, d, now_ns);
+        const bool is_mouse = d->touch.opts.kind == GN_TOUCH_MOUSE;
+        gn_touch_add(is_mouse ? &devices->mouse : &devices->glass, &d->touch.moves);
+        d->touch.moves = (struct gn_touch_moves){0};
+    }
     if (gone) gn_devices_search(devices, now_ns);
 }
 

@@ -1,7 +1,6 @@
 #include "kiosk/machine.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static int modes_of(const struct gn_kiosk_rules *rules) {
     return rules->mode_count > 0 ? rules->mode_count : 1;
@@ -25,14 +24,9 @@ static void set_caption(struct gn_kiosk *s, enum gn_kiosk_caption what, int64_t 
     s->caption_begun_ns = time_ns;
 }
 
-/* The scene's time in that much time. */
-static int64_t scene_time_ns(const struct gn_kiosk *s, int64_t ns) {
-    return s->speed >= 0 ? ns * (1 << s->speed) : ns / (1 << -s->speed);
-}
-
 /* ns of real time pass: for the clip that plays once, then for the scene. */
 static void pass_time(struct gn_kiosk *s, int64_t ns) {
-    ns = scene_time_ns(s, ns);
+    ns = s->speed >= 0 ? ns * (1 << s->speed) : ns / (1 << -s->speed);
     if (s->play.clip_plus_1 > 0) {
         s->play.time_ns += ns;
         if (s->play.time_ns < s->play.length_ns) return;

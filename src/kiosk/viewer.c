@@ -192,13 +192,9 @@ static void take_arrow(struct gn_show_screen *s, struct gn_pointer *pointer, int
     v->turned_ns = gn_loop_now_ns(s->show->loop) + HOLD_NS;
 }
 
-static bool is_bound(const struct gn_show_screen *s, unsigned key) {
-    const struct gn_buttons *own = s->show->config.options->buttons;
-    return own && gn_buttons_have_key(own, key);
-}
-
 void gn_viewer_take_keys(struct gn_show_screen *s, struct gn_pointer *pointer) {
     struct gn_show_viewer *v = &s->viewer;
+    const struct gn_buttons *own = s->show->config.options->buttons;
     const int64_t now_ns = gn_loop_now_ns(s->show->loop);
     unsigned kept = 0;
     if (pointer->key_count > 0 || v->held) s->kiosk.used_ns = now_ns;
@@ -207,7 +203,7 @@ void gn_viewer_take_keys(struct gn_show_screen *s, struct gn_pointer *pointer) {
         int place = 0;
         const struct gn_viewer_key *row = gn_viewer_key_find(event.key, &place);
         if (!row) row = gn_viewer_letter_find(pointer->letters[i]);
-        if (is_bound(s, event.key)) row = NULL;
+        if (own && gn_buttons_have_key(own, event.key)) row = NULL;
         if (event.down && (row || v->helps) && only_wakes(s)) continue;
         if (!row && event.key)
             pointer->keys[kept++] = event;

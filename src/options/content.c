@@ -28,10 +28,6 @@ static bool is_among(const size_t *offsets, size_t size, const struct gn_option_
     return false;
 }
 
-static bool is_of_content(const struct gn_option_row *row) {
-    return row->section && gn_section_find(row->section, false)->of_content;
-}
-
 /* A wrong value of these could take the screen, the GPU or the hours from the machine. */
 static bool is_of_machine(const struct gn_option_row *row) {
     return is_among(of_machine, sizeof of_machine, row) ||
@@ -101,8 +97,10 @@ static bool lay_ini(struct gn_options *o, const char *path, struct gn_warnings *
                     struct gn_err *err) {
     const struct gn_config_over over = {.why_not = why_not, .warnings = warnings};
     struct gn_settings *all = &o->all[0];
-    for (int i = 0; i < GN_OPTION_COUNT; i++)
-        if (is_of_content(&gn_option_rows[i])) reset_row(o, i);
+    for (int i = 0; i < GN_OPTION_COUNT; i++) {
+        const char *section = gn_option_rows[i].section;
+        if (section && gn_section_find(section, false)->of_content) reset_row(o, i);
+    }
     all->lights = NULL;
     all->light_count = 0;
     o->base_path = o->config_path;

@@ -50,15 +50,11 @@ const struct gn_section_row gn_section_rows[GN_SECTION_COUNT] = {
 /* clang-format on */
 _Static_assert(GN_SECTIONS_MAX <= GN_BUTTONS_MAX, "an input takes so many");
 
-static const struct gn_section_row *end_of_sections(void) {
-    return gn_section_rows + GN_SECTION_COUNT;
-}
-
 bool gn_section_is_many(const struct gn_section_row *section) { return section->take; }
 
 const struct gn_section_row *gn_section_find(const char *word, bool many) {
     const struct gn_section_row *row = gn_section_rows;
-    for (const size_t length = strlen(word); row < end_of_sections(); row++)
+    for (const size_t length = strlen(word); row < gn_section_rows + GN_SECTION_COUNT; row++)
         if (gn_section_is_many(row) == many && strcspn(row->title, " ") == length &&
             memcmp(row->title, word, length) == 0)
             return row;

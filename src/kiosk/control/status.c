@@ -1,6 +1,5 @@
 /* The metrics that are of the whole kiosk: rows without a turn of their own. */
 #include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 #include <config.h> /* the generated one */
@@ -55,13 +54,6 @@ static json_t *lights_json(const struct gn_show *s) {
     return lights;
 }
 
-static json_t *modes_json(const struct gn_show_modes *modes) {
-    json_t *names = json_array();
-    for (int i = 0; i < modes->count; i++)
-        json_array_append_new(names, gn_json_make_text(modes->names[i]));
-    return names;
-}
-
 static const void *kiosk_status(void *part) {
     static const char *const ranges[] = {"auto", "full", "limited"};
     struct status *v = part;
@@ -87,7 +79,7 @@ static const void *kiosk_status(void *part) {
         .info = k->info,
         .plays = plays ? s->screen.stage.scene->animation.clips[clip].name : NULL,
         .waits = s->config.waits || gn_kiosk_waits(k),
-        .modes = modes_json(&s->modes),
+        .modes = json_array(),
         .lights = lights_json(s),
         .backend = display->ops ? display->ops->name : "",
         .screen = display->screen,
@@ -104,6 +96,8 @@ static const void *kiosk_status(void *part) {
         .error = o->config_error,
         .problem = gn_problem_last(&s->problems),
     };
+    for (int i = 0; i < s->modes.count; i++)
+        json_array_append_new(v->modes, gn_json_make_text(s->modes.names[i]));
     return v;
 }
 
