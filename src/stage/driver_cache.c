@@ -59,14 +59,10 @@ enum {
     ROOM_BYTES = 4 << 20,         /* less is no room for shaders: Mesa complains of each */
 };
 
-static bool has_room(const char *folder) {
-    struct statvfs disk;
-    return statvfs(folder, &disk) != 0 || disk.f_bavail * disk.f_frsize >= ROOM_BYTES;
-}
-
 bool gn_driver_cache_reserve(struct gn_err *err) {
     char folder[4096], path[4200];
     struct stat info;
+    struct statvfs disk;
     if (!find_folder("mesa_shader_cache", folder, sizeof folder)) return true;
     mkdir(folder, 0755); /* as Mesa does it */
     snprintf(path, sizeof path, "%s/index", folder);
@@ -76,7 +72,9 @@ bool gn_driver_cache_reserve(struct gn_err *err) {
     const int error = posix_fallocate(fd, 0, bytes);
     if (error == ENOSPC && info.st_size == 0) unlink(path); /* made just now, and empty */
     close(fd);
-    if (error != ENOSPC && error != EDQUOT && has_room(folder)) return true;
+    const bool has_room =
+        statvfs(folder, &disk) != 0 || disk.f_bavail * disk.f_frsize >= ROOM_BYTES;
+    if (error != ENOSPC && error != EDQUOT && has_room) return true;
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
     return gn_fail(
         err,

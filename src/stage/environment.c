@@ -28,21 +28,6 @@ static const struct gn_kept_kind kept_kind = {.prefix = "environment-",
                                               .files_max = 16,
                                               .bytes_max = GN_ENVIRONMENT_FILE_BYTES};
 
-static void keep_environment(const char *path, const struct gn_environment *environment) {
-    uint8_t *bytes = gn_xalloc(1, GN_ENVIRONMENT_FILE_BYTES);
-    gn_environment_write(environment, bytes);
-    gn_kept_write(&kept_kind, path, bytes, GN_ENVIRONMENT_FILE_BYTES);
-    free(bytes);
-}
-
-static bool load_kept(const char *path, struct gn_environment *out) {
-    struct gn_bytes kept = {0};
-    const bool ok =
-        gn_kept_read(&kept_kind, path, &kept) && gn_environment_read(kept.data, kept.size, out);
-    gn_bytes_finish(&kept);
-    return ok;
-}
-
 struct reading {
     const char *path;
     int64_t begun_ns;
@@ -59,12 +44,13 @@ static void print_progress(void *user, double share) {
 }
 
 static bool read_file(const char *path, struct gn_environment *out, struct gn_err *err) {
-    struct gn_bytes bytes = {0};
+    struct gn_bytes bytes = {0}, old = {0};
     char kept[GN_KEPT_PATH];
     if (!gn_file_read(path, (size_t)FILE_MB << 20, &bytes, err)) return false;
     const uint64_t hash = gn_hash(GN_HASH_INIT, bytes.data, bytes.size);
     const bool keeps = gn_kept_path(&kept_kind, hash, bytes.size, kept);
-    bool ok = keeps && load_kept(kept, out);
+    bool ok = keeps && gn_kept_read(&kept_kind, kept, &old) &&
+              gn_environment_read(old.data, old.size, out);
     if (!ok) {
         struct reading reading = {.path = path, .begun_ns = gn_clock_monotonic_ns()};
         const struct gn_environment_work work = {.threads = THREADS,
@@ -73,9 +59,15 @@ static bool read_file(const char *path, struct gn_environment *out, struct gn_er
                                                  .user = &reading};
         ok = gn_environment_read_hdr(bytes.data, bytes.size, &work, out, err);
         if (!ok) gn_fail_prefix(err, "%s", path);
-        if (ok && keeps) keep_environment(kept, out);
+        if (ok && keeps) {
+            uint8_t *made = gn_xalloc(1, GN_ENVIRONMENT_FILE_BYTES);
+            gn_environment_write(out, made);
+            gn_kept_write(&kept_kind, kept, made, GN_ENVIRONMENT_FILE_BYTES);
+            free(made);
+        }
     }
     gn_bytes_finish(&bytes);
+    gn_bytes_finish(&old);
     return ok;
 }
 

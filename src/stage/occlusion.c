@@ -71,19 +71,15 @@ void gn_occluder_destroy(struct gn_occluder *o) {
 
 /* ---- what is shown ---- */
 
-static uint64_t next_id(void) {
-    static atomic_uint_fast64_t last; /* ids of all scenes differ */
-    return atomic_fetch_add(&last, 1) + 1;
-}
-
 static void mix_texels(struct gn_occluder *o) {
+    static atomic_uint_fast64_t last_id; /* ids of all scenes differ */
     const size_t count = cells_of(o->scene);
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 4; k++) {
             const float from = o->from[i][k], to = o->to[i][k];
             o->shown[i][k] = (int8_t)lrintf(from + o->share * (to - from));
         }
-    o->id = next_id();
+    o->id = atomic_fetch_add(&last_id, 1) + 1;
 }
 
 static void fill_open(int8_t (*texels)[4], size_t count) {
@@ -164,13 +160,6 @@ static void start_thread(struct gn_occluder *o) {
     o->is_made = !o->works; /* without a thread it is not tried again */
 }
 
-static void make_now(struct gn_occluder *o) {
-    const struct gn_occlusion_work work = {.threads = 0};
-    o->made = read_or_make(o->scene, &o->sky, &work);
-    o->is_made = true;
-    begin_fade(o, true);
-}
-
 struct gn_sky gn_stage_sky_of(const struct gn_frame_environment_opts *e) {
     if (!e->of || e->reflected_only) return (struct gn_sky){.turn = {1, 0}};
     return gn_stage_sky(e->lights_key ? &e->of->rest : &e->of->whole, e->turn_rad);
@@ -186,7 +175,9 @@ void gn_occluder_give(struct gn_occluder *o, struct gn_frame_opts *opts, bool no
     }
     if (now && !o->is_made) {
         end_thread(o);
-        make_now(o);
+        o->made = read_or_make(o->scene, &o->sky, &(struct gn_occlusion_work){.threads = 0});
+        o->is_made = true;
+        begin_fade(o, true);
     } else if (!o->is_made && !o->works) {
         start_thread(o);
     }

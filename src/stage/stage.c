@@ -13,7 +13,6 @@
 #include "stage/lights.h"
 #include "stage/occlusion.h"
 #include "stage/wake.h"
-#include "truth/occlusion.h"
 
 /* "lesson:solids" */
 static struct gn_scene *read_lesson(const char *path, const struct gn_scene_limits *limits,
@@ -223,11 +222,6 @@ static void set_framing(struct gn_framing_opts *framing, const struct gn_camera_
     framing->distance_max_m = isnan(s->distance_max_m) ? 0.0f : (float)s->distance_max_m;
 }
 
-static struct gn_pose_run run_of(const struct gn_scene_settings *s) {
-    return (struct gn_pose_run){(enum gn_pose_turns)s->animation_turns, s->animation_speed - 1,
-                                s->animation_start_ns};
-}
-
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err) {
@@ -235,7 +229,8 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (!choose_clips(o, scene, &look->clips, warnings, err) ||
         !choose_variant(o, scene, &look->variant, warnings, err))
         return false;
-    look->run = run_of(&o->scene);
+    look->run = (struct gn_pose_run){(enum gn_pose_turns)o->scene.animation_turns,
+                                     o->scene.animation_speed - 1, o->scene.animation_start_ns};
     if (of_light && (o->render.light < 0 || (uint32_t)o->render.light >= scene->light_count))
         return gn_fail_usage(err, "%s %d: the scene has %u light%s, counted from 0",
                              gn_settings_label(o, render.light), o->render.light,
