@@ -1,7 +1,6 @@
 #include "shadow/moments.h"
 
 #include <math.h>
-#include <string.h>
 
 const struct gn_moments_row gn_moments[GN_MOMENTS_ALL] = {
     [GN_MOMENTS_NONE] = {.name = "none"},
@@ -68,15 +67,6 @@ const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {
 
 /* Box of a texel s: s^2 / 12; linear weights: s^2 / 6; the blur's: (2 blur)^2 / 12. */
 float gn_mipmap_of_blur(float blur_px) { return log2f(2.0f * blur_px / sqrtf(3.0f)); }
-
-bool gn_moments_find(const char *name, enum gn_moments *out) {
-    for (int i = GN_MOMENTS_NONE + 1; i < GN_MOMENTS_COUNT; i++)
-        if (strcmp(name, gn_moments[i].name) == 0) {
-            *out = (enum gn_moments)i;
-            return true;
-        }
-    return false;
-}
 
 enum gn_moments gn_moments_choose(const uint8_t stores[GN_STORES_MAX], enum gn_moments wanted,
                                   uint32_t proved, bool *fell_back) {

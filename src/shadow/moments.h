@@ -105,9 +105,6 @@ float gn_mipmap_of_blur(float blur_px);
 #define GN_BLUR_LEAST_PX 1.5f
 #define GN_BLUR_MOST_PX  4.5f
 
-/* By name; false: there is none of it. */
-bool gn_moments_find(const char *name, enum gn_moments *out);
-
 /* The first of a technique's `stores` that `proved` (a bit per gn_moments) has, or the wanted one,
  * if it is among them and proved; NONE: there is none. *fell_back: it is not what was wanted.
  * wanted NONE: whatever comes first. */

@@ -1,6 +1,5 @@
 #include "shadow/technique.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define ROW(id, ...) [GN_TECHNIQUE_##id] = {__VA_ARGS__},
@@ -64,23 +63,6 @@ bool gn_technique_find(const char *name, size_t length, enum gn_technique *out) 
             return true;
         }
     return false;
-}
-
-bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *err) {
-    if (strcmp(name, "auto") == 0) {
-        *out = GN_ENCODING_AUTO;
-        return true;
-    }
-    char names[160] = "auto";
-    for (int i = 0; i < GN_ENCODING_MASK; i++) {
-        if (strcmp(name, gn_encodings[i].name) == 0) {
-            *out = (enum gn_encoding)i;
-            return true;
-        }
-        size_t used = strlen(names);
-        snprintf(names + used, sizeof names - used, ", %s", gn_encodings[i].name);
-    }
-    return gn_fail_usage(err, "there is no map format '%s'; there are %s", name, names);
 }
 
 enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,

@@ -8,7 +8,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "core/err.h"
 #include "shadow/moments.h"
 #include "shadow/taps.h"
 
@@ -119,8 +118,6 @@ void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]);
 
 /* By name, of so many bytes. False: there is none. TRUTH is not found. */
 bool gn_technique_find(const char *name, size_t length, enum gn_technique *out);
-/* By name, or "auto"; on failure a usage error that lists the names. */
-bool gn_encoding_find(const char *name, enum gn_encoding *out, struct gn_err *err);
 
 /* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's
  * order that `proved` (a bit per encoding) has, else RGBA8. Where the wanted one is missing,

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/map_format.h"
 #include "image/penumbra.h"
 #include "image/shot.h"
 #include "image/table.h"
@@ -50,14 +51,14 @@ static enum gn_encoding encoding_of(const struct gn_table_row *row) {
     if (points_of(row) > 0) return GN_ENCODING_MEAN;
     if (technique_of(row)->reads_both) return GN_ENCODING_DEPTH;
     if (technique_of(row)->filter) return GN_ENCODING_R32UI;
-    if (!technique_of(row)->on_plane) gn_encoding_find(row->format, &encoding, NULL);
+    if (!technique_of(row)->on_plane) find_encoding(row->format, &encoding);
     return encoding;
 }
 
 /* What its technique makes of the map; NONE: it reads the map itself. */
 static enum gn_moments moments_of(const struct gn_table_row *row) {
     enum gn_moments moments = GN_MOMENTS_NONE;
-    if (technique_of(row)->filter) gn_moments_find(row->format, &moments);
+    if (technique_of(row)->filter) find_moments(row->format, &moments);
     return moments;
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/file.h"
 #include "gl/private.h"
+#include "image/map_format.h"
 
 static struct gn_program_key lit(uint64_t features, enum gn_light_type type, const char *technique,
                                  const char *encoding) {
@@ -24,10 +25,10 @@ static struct gn_program_key lit(uint64_t features, enum gn_light_type type, con
             : strcmp(encoding, "mean") == 0  ? GN_ENCODING_MEAN
                                              : GN_ENCODING_MASK;
     else
-        gn_encoding_find(encoding, &e, NULL);
+        find_encoding(encoding, &e);
     if (gn_technique_filters_map(t)) {
         enum gn_moments moments = (enum gn_moments)gn_techniques[t].stores[0];
-        gn_moments_find(encoding, &moments);
+        find_moments(encoding, &moments);
         key.lights[0].moments = (uint8_t)moments;
         e = gn_techniques[t].reads_both ? GN_ENCODING_DEPTH : GN_ENCODING_R32UI;
     }
