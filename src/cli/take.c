@@ -1,6 +1,5 @@
 /* gnomon take: the folder gnomon of a USB stick becomes what a kiosk shows, once it is copied and
  * looked at; a text on the stick says what was done. */
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -11,30 +10,18 @@
 #include "config.h"
 #include "core/clock.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "take/take.h"
 
 static const char report_name[] = "gnomon-status.txt";
 enum { REPORT_MAX = 64 * 1024 };
-struct report { /* lines end with CR LF, for any editor of a PC */
+struct report {
     char text[REPORT_MAX];
-    size_t used;
 };
+/* Lines end with CR LF, for any editor of a PC. */
+#define ADD_LINE(r, ...) gn_text_add_line((r)->text, sizeof(r)->text, "\r\n", __VA_ARGS__)
 
 /* ---- the report ----------------------------------------------------------------------------- */
-
-static void add_line(struct report *r, const char *format, ...)
-    __attribute__((format(printf, 2, 3)));
-static void add_line(struct report *r, const char *format, ...) {
-    const size_t left = sizeof r->text - r->used;
-    va_list args;
-    va_start(args, format);
-    const int length = vsnprintf(r->text + r->used, left, format, args);
-    va_end(args);
-    if (length < 0 || (size_t)length + 3 > left) return; /* no room for this line */
-    r->used += (size_t)length;
-    memcpy(r->text + r->used, "\r\n", 3);
-    r->used += 2;
-}
 
 static void add_time(struct report *r) {
     const time_t now = time(NULL);
@@ -42,7 +29,7 @@ static void add_time(struct report *r) {
     char text[40] = "";
     if (gmtime_r(&now, &utc)) strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &utc);
     const bool is_set = now >= GN_CLOCK_PAST_S && gn_clock_was_set();
-    add_line(r, "gnomon " GN_VERSION ", %s%s", text,
+    ADD_LINE(r, "gnomon " GN_VERSION ", %s%s", text,
              is_set ? "" : " (this machine's clock may be wrong: nothing has set it)");
 }
 
@@ -54,12 +41,12 @@ static void add_version(struct report *r, const struct gn_take *t, const char *w
     char text[40] = "";
     const int number = (int)strcspn(version, "-");
     if (!version[0]) {
-        add_line(r, "%s: none", what);
+        ADD_LINE(r, "%s: none", what);
         return;
     }
     if (fstatat(t->versions, version, &info, 0) == 0 && gmtime_r(&info.st_mtime, &utc))
         strftime(text, sizeof text, ", of %Y-%m-%d %H:%M UTC", &utc);
-    add_line(r, "%s: version %.*s%s", what, number, version, text);
+    ADD_LINE(r, "%s: version %.*s%s", what, number, version, text);
 }
 
 /* A stick that cannot be written to has no report, which is no error. Beside the versions there is
@@ -68,10 +55,10 @@ static void save_report(const struct report *r, const struct gn_take *t, const c
                         const char *stick) {
     char path[PATH_MAX];
     if (snprintf(path, sizeof path, "%s/%s", dir, report_name) < (int)sizeof path)
-        gn_file_replace(path, r->text, r->used, NULL);
+        gn_file_replace(path, r->text, strlen(r->text), NULL);
     if (t->from >= 0 &&
         snprintf(path, sizeof path, "%s/%s/%s", stick, t->name, report_name) < (int)sizeof path)
-        gn_file_replace(path, r->text, r->used, NULL);
+        gn_file_replace(path, r->text, strlen(r->text), NULL);
 }
 
 /* ---- taking --------------------------------------------------------------------------------- */
@@ -87,7 +74,7 @@ static bool take_fresh(const struct gn_options *o, struct gn_take *t, struct rep
     }
     if (!gn_take_keep(t, err)) return false;
     const char *plural = t->count == 1 ? "" : "s";
-    add_line(r, "This folder was taken over: %d file%s, %.1f MB.", t->count, plural,
+    ADD_LINE(r, "This folder was taken over: %d file%s, %.1f MB.", t->count, plural,
              (double)t->bytes / (1 << 20));
     printf("taken: version %.*s, %d file%s, %.1f MB\n", (int)strcspn(t->shown, "-"), t->shown,
            t->count, plural, (double)t->bytes / (1 << 20));
@@ -106,25 +93,25 @@ static bool take_stick(const struct gn_options *o, struct gn_take *t, const char
     case GN_TAKE_FAILED: ok = false; break;
     case GN_TAKE_FRESH: ok = take_fresh(o, t, &report, &findings, err); break;
     case GN_TAKE_SAME:
-        add_line(&report, "This folder is shown already.");
+        ADD_LINE(&report, "This folder is shown already.");
         puts("already shown");
         break;
     case GN_TAKE_BACK:
-        add_line(&report, "This folder was shown until somebody went back to the version before, "
+        ADD_LINE(&report, "This folder was shown until somebody went back to the version before, "
                           "or a kiosk did, since no picture came; it is not taken again unless "
                           "something in it changes.");
         puts("not taken again: gnomon take --rollback went back from it, and goes to it again");
         break;
     }
-    if (!ok) add_line(&report, "This folder was NOT taken over: %s", err->text);
+    if (!ok) ADD_LINE(&report, "This folder was NOT taken over: %s", err->text);
     /* one error alone is the reason that stands above */
     for (int i = 0; findings.errors.count > 1 && i < findings.errors.count; i++)
-        add_line(&report, "- %s", findings.errors.items[i].text);
+        ADD_LINE(&report, "- %s", findings.errors.items[i].text);
     for (int i = 0; i < findings.warnings.count; i++) {
-        add_line(&report, "- warning: %s", findings.warnings.text[i]);
+        ADD_LINE(&report, "- warning: %s", findings.warnings.text[i]);
         gn_warn(warnings, "%s", findings.warnings.text[i]);
     }
-    add_line(&report, "%s", "");
+    ADD_LINE(&report, "%s", "");
     add_version(&report, t, "Shown now", t->shown);
     const bool has_other = t->before[0] && strcmp(t->before, t->shown) != 0;
     add_version(&report, t, "The version before", has_other ? t->before : "");

@@ -59,6 +59,18 @@ void gn_text_add(char *out, size_t size, const char *format, ...) {
     va_end(args);
 }
 
+void gn_text_add_line(char *out, size_t size, const char *end, const char *format, ...) {
+    const size_t used = strlen(out), room = size - used;
+    va_list args;
+    va_start(args, format);
+    const int length = vsnprintf(out + used, room, format, args);
+    va_end(args);
+    if (length >= 0 && (size_t)length + strlen(end) < room)
+        memcpy(out + used + length, end, strlen(end) + 1);
+    else
+        out[used] = '\0';
+}
+
 bool gn_text_word(const char **at, char *word, size_t size) {
     *at += strspn(*at, " \t");
     const size_t length = strcspn(*at, " \t");

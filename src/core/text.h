@@ -24,6 +24,10 @@ void gn_text_print(const char *text, FILE *to);
 void gn_text_add(char *out, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* The same for a line and its end; one for which there is no room is left out. */
+void gn_text_add_line(char *out, size_t size, const char *end, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
 /* Copies the next word of *at, of those with spaces or tabs between, and moves *at behind it.
  * False: there are no more. A longer word is cut. */
 bool gn_text_word(const char **at, char *word, size_t size);
