@@ -1,6 +1,5 @@
 #include "cli/machine.h"
 
-#include <fcntl.h>
 #include <glob.h>
 #include <grp.h>
 #include <limits.h>
@@ -19,10 +18,7 @@
 static const char *read_text(const char *root, const char *path, char *out, size_t size) {
     char full[PATH_MAX];
     snprintf(full, sizeof full, "%s%s", root, path);
-    int fd = open(full, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    ssize_t length = fd < 0 ? 0 : read(fd, out, size - 1);
-    if (fd >= 0) close(fd);
-    out[length > 0 ? length : 0] = 0;
+    gn_file_read_text(full, out, size);
     return out;
 }
 

@@ -139,6 +139,14 @@ const char *gn_file_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
+bool gn_file_read_text(const char *path, char *out, size_t size) {
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const ssize_t length = fd < 0 ? 0 : read(fd, out, size - 1);
+    if (fd >= 0) close(fd);
+    out[length > 0 ? length : 0] = 0;
+    return length > 0;
+}
+
 void gn_bytes_finish(struct gn_bytes *bytes) {
     free(bytes->data);
     *bytes = (struct gn_bytes){0};

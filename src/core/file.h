@@ -38,6 +38,9 @@ int gn_file_open(const char *path, struct gn_err *err);
 bool gn_file_read_fd(int fd, const char *path, size_t limit, struct gn_bytes *out,
                      struct gn_err *err);
 void gn_bytes_finish(struct gn_bytes *bytes);
+/* The first bytes of a small file, such as one of the kernel's, as a text that ends with a zero
+ * byte; without blocking. False: it cannot be read, or is empty: "". */
+bool gn_file_read_text(const char *path, char *out, size_t size);
 const char *gn_file_name(const char *path); /* its last part */
 
 /* Writes path atomically: a temporary file in the same folder, fsync'd and renamed, removed on

@@ -47,6 +47,8 @@ int64_t gn_health_parse_line(const char *text, const char *key);
 /* root is put before every path: "" except in tests. What cannot be read, or is no number, is
  * unknown. May take milliseconds where a sensor is slow: not for the frame loop. */
 void gn_health_read(struct gn_health *health, const char *root);
+/* The hottest zone alone, as in hottest_mc. */
+int gn_health_read_hottest_mc(const char *root);
 
 /* Whether it suffers from that, and the sentence that says so. failed_before: cma_failed of the
  * reading before, -1: there was none. CMA runs out when requests for it have failed since, or when

@@ -22,17 +22,14 @@ static const char *read_file(const char *path, struct gn_bytes *bytes) {
 }
 
 static int64_t read_number(const char *path, int base) {
-    struct gn_bytes bytes;
-    const int64_t number = gn_health_parse_number(read_file(path, &bytes), base);
-    gn_bytes_finish(&bytes);
-    return number;
+    char text[64];
+    gn_file_read_text(path, text, sizeof text);
+    return gn_health_parse_number(text, base);
 }
 
 static void read_word(const char *path, char *out, size_t size) {
-    struct gn_bytes bytes;
-    const char *text = read_file(path, &bytes);
-    snprintf(out, size, "%.*s", (int)strcspn(text, " \t\n"), text);
-    gn_bytes_finish(&bytes);
+    gn_file_read_text(path, out, size);
+    out[strcspn(out, " \t\n")] = 0;
 }
 
 /* Calls `take` with each folder that the pattern has, and a path in it has room for a name. */
@@ -83,13 +80,19 @@ static void take_cooling(struct gn_health *h, const char *folder) {
     memcpy(h->cooling, type, sizeof h->cooling);
 }
 
+int gn_health_read_hottest_mc(const char *root) {
+    struct gn_health health = {0};
+    each_folder(root, "/sys/class/thermal/thermal_zone*", &health, take_zone);
+    return health.hottest_mc;
+}
+
 void gn_health_read(struct gn_health *h, const char *root) {
     struct gn_bytes bytes;
     char path[PATH_MAX];
     *h = (struct gn_health){.undervoltage = -1, .firmware = -1, .cooled = -1};
     each_folder(root, "/sys/class/hwmon/hwmon*", h, take_hwmon);
     each_folder(root, "/sys/devices/platform/soc*/soc*:firmware", h, take_firmware);
-    each_folder(root, "/sys/class/thermal/thermal_zone*", h, take_zone);
+    h->hottest_mc = gn_health_read_hottest_mc(root);
     each_folder(root, "/sys/class/thermal/cooling_device*", h, take_cooling);
 
     const char *text = read_file(path_in(root, "proc/meminfo", path), &bytes);

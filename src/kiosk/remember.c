@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "core/clock.h"
+#include "core/file.h"
 #include "kiosk/keeper.h"
 #include "kiosk/private.h"
 #include "kiosk/state.h"
@@ -36,17 +37,10 @@ static struct memory *memory_of(const struct gn_show *s) { return s->parts.of[GN
 
 /* ---- the start ------------------------------------------------------------------------------- */
 
-static void read_boot(char out[40]) {
-    FILE *file = fopen("/proc/sys/kernel/random/boot_id", "re");
-    out[0] = 0;
-    if (file && !fgets(out, 40, file)) out[0] = 0;
-    if (file) fclose(file);
-    out[strcspn(out, "\n")] = 0;
-}
-
 static void begin_counts(struct gn_state *s) {
     char boot[sizeof s->boot];
-    read_boot(boot);
+    gn_file_read_text("/proc/sys/kernel/random/boot_id", boot, sizeof boot);
+    boot[strcspn(boot, "\n")] = 0;
     if (s->runs && strcmp(boot, s->boot) == 0) s->counts.restarts++;
     if (s->runs && strcmp(boot, s->boot) != 0) s->counts.cuts++;
     s->counts.starts++;

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "core/file.h"
+
 /* The kernel does not report a card's master: returns the process that has it open. Session
  * managers hold cards on behalf of others: returns one only if there is no other process. */
 bool gn_kms_find_holder(const char *node, char *out, size_t size) {
@@ -32,9 +34,7 @@ bool gn_kms_find_holder(const char *node, char *out, size_t size) {
         if (fds) closedir(fds);
         if (!is_open) continue;
         snprintf(path, sizeof path, "/proc/%ld/comm", pid);
-        FILE *file = fopen(path, "re");
-        if (!file || !fgets(name, sizeof name, file)) snprintf(name, sizeof name, "a program");
-        if (file) fclose(file);
+        if (!gn_file_read_text(path, name, sizeof name)) snprintf(name, sizeof name, "a program");
         name[strcspn(name, "\n")] = 0;
         sure = true;
         for (size_t i = 0; i < sizeof managers / sizeof *managers; i++)

@@ -5,6 +5,7 @@
 #include <config.h> /* the generated one */
 
 #include "core/clock.h"
+#include "core/file.h"
 #include "core/json.h"
 #include "core/text.h"
 #include "kiosk/private.h"
@@ -194,11 +195,11 @@ struct process {
 static const void *process_status(void *part) {
     struct process *v = part;
     const int64_t now_ns = gn_loop_now_ns(v->host->loop);
-    long pages = 0;
+    char text[64];
+    long pages;
     if (v->read_ns != 0 && now_ns - v->read_ns < GN_NS_PER_S) return v;
-    FILE *file = fopen("/proc/self/statm", "re");
-    if (file && fscanf(file, "%*s %ld", &pages) != 1) pages = 0;
-    if (file) fclose(file);
+    gn_file_read_text("/proc/self/statm", text, sizeof text);
+    if (sscanf(text, "%*s %ld", &pages) != 1) pages = 0;
     v->read_ns = now_ns;
     v->memory_mb = (double)pages * (double)sysconf(_SC_PAGESIZE) / (1024.0 * 1024.0);
     return v;
