@@ -100,6 +100,28 @@ static void files_that_hide_their_size_are_read(void **state) {
     assert_null(bytes.data);
 }
 
+static void the_start_of_a_small_file_is_a_text(void **state) {
+    (void)state;
+    char text[5] = "old";
+    const char *path = in_folder("small");
+    assert_true(gn_file_write(path, "abcdefg", 7, NULL));
+    assert_true(gn_file_read_text(path, text, sizeof text));
+    assert_string_equal(text, "abcd");
+    assert_true(gn_file_write(path, "", 0, NULL));
+    assert_false(gn_file_read_text(path, text, sizeof text));
+    assert_string_equal(text, "");
+    assert_int_equal(unlink(path), 0);
+    const char *const others[] = {path, folder};
+    for (int i = 0; i < 2; i++) {
+        snprintf(text, sizeof text, "old");
+        assert_false(gn_file_read_text(others[i], text, sizeof text));
+        assert_string_equal(text, "");
+    }
+    assert_int_equal(mkfifo(path, 0600), 0); /* without a writer: it does not wait */
+    assert_false(gn_file_read_text(path, text, sizeof text));
+    assert_int_equal(unlink(path), 0);
+}
+
 static void what_is_no_file_is_refused_at_once(void **state) {
     (void)state;
     struct sockaddr_un address = {.sun_family = AF_UNIX, .sun_path = "socket"};
@@ -297,6 +319,7 @@ int main(void) {
         cmocka_unit_test(what_was_written_is_read),
         cmocka_unit_test(a_file_of_many_megabytes_is_whole),
         cmocka_unit_test(files_that_hide_their_size_are_read),
+        cmocka_unit_test(the_start_of_a_small_file_is_a_text),
         cmocka_unit_test(what_is_no_file_is_refused_at_once),
         cmocka_unit_test(a_failed_write_leaves_nothing),
         cmocka_unit_test(a_write_leaves_no_other_file),

@@ -101,6 +101,17 @@ static void what_moves_the_cursor_or_turns_a_line_is_escaped(void **state) {
     assert_string_equal(err.text, "a\\u202egpj.exe: no");
 }
 
+static void a_line_is_added_whole_or_not_at_all(void **state) {
+    (void)state;
+    char text[12] = "";
+    gn_text_add_line(text, sizeof text, "\r\n", "%d", 1234567);
+    assert_string_equal(text, "1234567\r\n");
+    gn_text_add_line(text, sizeof text, "\r\n", "x");
+    assert_string_equal(text, "1234567\r\n"); /* the zero has no room beside the end */
+    gn_text_add_line(text, sizeof text, "\n", "x");
+    assert_string_equal(text, "1234567\r\nx\n");
+}
+
 static void embedded_files_are_found_and_end_with_zero(void **state) {
     (void)state;
     assert_null(gn_embedded_find("no such file"));
@@ -123,6 +134,7 @@ int main(void) {
         cmocka_unit_test(what_moves_the_cursor_or_turns_a_line_is_escaped),
         cmocka_unit_test(a_library_that_does_not_load_is_told_from_a_missing_one),
         cmocka_unit_test(long_texts_are_safe),
+        cmocka_unit_test(a_line_is_added_whole_or_not_at_all),
         cmocka_unit_test(embedded_files_are_found_and_end_with_zero),
     };
     return RUN(tests);
