@@ -14,6 +14,7 @@
 #include "core/clock.h"
 #include "core/file.h"
 #include "core/json.h"
+#include "core/opener.h"
 #include "core/text.h"
 #include "kiosk/control/listen.h"
 #include "kiosk/control/request.h"
@@ -145,24 +146,6 @@ static bool fail_talk(const struct talk *t, const char *what, struct gn_err *err
     return gn_fail(err, "the kiosk at %s %s", t->path, what);
 }
 
-/* The descriptor goes with the first byte. */
-static ssize_t send_piece(struct talk *t, const char *data, size_t size, bool first) {
-    union {
-        struct cmsghdr header;
-        char bytes[CMSG_SPACE(sizeof(int))];
-    } control = {.header = {.cmsg_len = CMSG_LEN(sizeof(int)),
-                            .cmsg_level = SOL_SOCKET,
-                            .cmsg_type = SCM_RIGHTS}};
-    struct iovec piece = {(void *)data, size};
-    struct msghdr message = {.msg_iov = &piece, .msg_iovlen = 1};
-    if (first && t->memory >= 0) {
-        memcpy(CMSG_DATA(&control.header), &t->memory, sizeof(int));
-        message.msg_control = &control;
-        message.msg_controllen = sizeof control;
-    }
-    return sendmsg(t->fd, &message, MSG_NOSIGNAL);
-}
-
 static bool send_request(struct talk *t, const json_t *request, struct gn_err *err) {
     char *line = json_dumps(request, JSON_COMPACT);
     size_t left = line ? strlen(line) : 0;
@@ -172,7 +155,8 @@ static bool send_request(struct talk *t, const json_t *request, struct gn_err *e
     else
         gn_fail_usage(err, "ctl: more than %d bytes", GN_REQUEST_LINE_MAX);
     for (const char *at = line; ok && left > 0;) {
-        const ssize_t sent = send_piece(t, at, left, at == line);
+        const int fd = at == line ? t->memory : -1;
+        const ssize_t sent = gn_send_with(t->fd, at, left, fd, MSG_NOSIGNAL);
         if (sent < 0 && errno == EPIPE) break; /* the reply has the reason */
         if (sent < 0 && errno != EAGAIN && errno != EINTR)
             ok = fail_talk(t, "closed the connection", err);

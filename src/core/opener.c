@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <limits.h>
+#include <stdint.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/uio.h>
@@ -16,6 +17,20 @@ union passed { /* one descriptor beside a message, aligned */
     char bytes[CMSG_SPACE(sizeof(int))];
 };
 
+ssize_t gn_send_with(int socket, const void *data, size_t size, int fd, int flags) {
+    union passed passed = {.header = {.cmsg_len = CMSG_LEN(sizeof fd),
+                                      .cmsg_level = SOL_SOCKET,
+                                      .cmsg_type = SCM_RIGHTS}};
+    struct iovec piece = {(void *)(uintptr_t)data, size};
+    struct msghdr message = {.msg_iov = &piece, .msg_iovlen = 1};
+    if (fd >= 0) {
+        memcpy(CMSG_DATA(&passed.header), &fd, sizeof fd);
+        message.msg_control = &passed;
+        message.msg_controllen = sizeof passed;
+    }
+    return sendmsg(socket, &message, flags);
+}
+
 void gn_opener_serve(const struct gn_opener *opener) {
     char name[PATH_MAX];
     struct gn_err why = {0};
@@ -24,17 +39,8 @@ void gn_opener_serve(const struct gn_opener *opener) {
         return; /* none, or one that gn_opener_ask() cannot send */
     const int fd = name[0] ? gn_file_open_beneath(opener->folder, name, &why)
                            : gn_file_open(opener->file, &why);
-    union passed passed = {.header = {.cmsg_len = CMSG_LEN(sizeof fd),
-                                      .cmsg_level = SOL_SOCKET,
-                                      .cmsg_type = SCM_RIGHTS}};
-    struct iovec piece = {why.text, strlen(why.text) + 1};
-    struct msghdr message = {.msg_iov = &piece, .msg_iovlen = 1};
-    if (fd >= 0) {
-        memcpy(CMSG_DATA(&passed.header), &fd, sizeof fd);
-        message.msg_control = &passed;
-        message.msg_controllen = sizeof passed;
-    }
-    (void)!sendmsg(opener->socket, &message, MSG_DONTWAIT | MSG_NOSIGNAL);
+    (void)!gn_send_with(opener->socket, why.text, strlen(why.text) + 1, fd,
+                        MSG_DONTWAIT | MSG_NOSIGNAL);
     if (fd >= 0) close(fd);
 }
 

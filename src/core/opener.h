@@ -3,6 +3,8 @@
 #ifndef GN_CORE_OPENER_H
 #define GN_CORE_OPENER_H
 
+#include <sys/types.h>
+
 #include "core/err.h"
 
 struct gn_opener {
@@ -19,5 +21,8 @@ void gn_opener_serve(const struct gn_opener *opener);
 /* In the other process: the descriptor of that file, or -1 with the reason. Waits. Needs no system
  * calls but write() and recvmsg(). */
 int gn_opener_ask(int socket, const char *name, struct gn_err *err);
+
+/* As send(), with a descriptor beside the first byte; -1: without one. */
+ssize_t gn_send_with(int socket, const void *data, size_t size, int fd, int flags);
 
 #endif
