@@ -9,14 +9,6 @@
 
 _Static_assert(PASS_CODE_ADD + 1 == GN_POINT_CONSTANTS, "constants of casters");
 
-/* Bytes are subtracted: the whole of the points is 256 of 255, which ends at 0. */
-static void set_scale(struct gn_shadow_view *view) {
-    const struct gn_shadow_lamp *lamp = &view->lamp;
-    const uint32_t hidden = 256 * lamp->drawn / lamp->count; /* where no point is seen */
-    view->penumbra.scale = hidden < 255 ? 255.0f / (float)hidden : 1.0f;
-    view->penumbra.bias = 1.0f - view->penumbra.scale;
-}
-
 enum { FADE_FRAMES = 20 };
 
 /* A floor first shows the points of one frame, and goes on towards all of them in steps that are
@@ -49,7 +41,11 @@ void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *
         uint32_t more = opts->shadow.gather_points;
         if (more && is_floor) more = gn_frame_floor_points(frame);
         lamp->drawn = more && before + more < lamp->count ? before + more : lamp->count;
-        set_scale(view);
+        /* where no point is seen; bytes are subtracted: all points are 256 of 255, which ends at 0
+         */
+        const uint32_t hidden = 256 * lamp->drawn / lamp->count;
+        view->penumbra.scale = hidden < 255 ? 255.0f / (float)hidden : 1.0f;
+        view->penumbra.bias = 1.0f - view->penumbra.scale;
         if (opts->all_seen) continue; /* it is not drawn */
         if (view->technique == GN_TECHNIQUE_FLOOR) fade_floor(frame, slot, before, more);
         frame->gathered[slot].hash = hash;

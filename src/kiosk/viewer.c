@@ -35,17 +35,13 @@ static void add_button(const struct gn_button_config *button, char *out, size_t 
                     command >= 0 ? gn_ctl_rows[command].what : "another action");
 }
 
-static void write_help(const struct gn_show_screen *s, char *out, size_t size) {
-    for (const struct gn_viewer_key *row = gn_viewer_keys; row->name; row++)
-        gn_text_add(out, size, "%s: %s\n", row->name, row->meaning);
-    for (int i = 0; i < s->show->buttons.map.count; i++)
-        add_button(&s->show->buttons.map.items[i], out, size);
-}
-
 static void show_help(struct gn_show_screen *s, bool on) {
     s->viewer.helps = on;
     s->text.help[0] = 0;
-    if (on) write_help(s, s->text.help, sizeof s->text.help);
+    for (const struct gn_viewer_key *row = gn_viewer_keys; on && row->name; row++)
+        gn_text_add(s->text.help, sizeof s->text.help, "%s: %s\n", row->name, row->meaning);
+    for (int i = 0; on && i < s->show->buttons.map.count; i++)
+        add_button(&s->show->buttons.map.items[i], s->text.help, sizeof s->text.help);
     s->changed = true;
 }
 
