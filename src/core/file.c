@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "core/beneath.h"
-#include "core/disk.h"
 #include "core/stop.h"
 #include "core/sweep.h"
 

@@ -9,7 +9,6 @@
 #include <sys/inotify.h>
 #include <unistd.h>
 
-#include "core/arena.h"
 #include "input/private.h"
 
 #define NEVER INT64_MAX

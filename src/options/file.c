@@ -8,7 +8,6 @@
 
 #include "core/file.h"
 #include "core/text.h"
-#include "options/ini.h"
 #include "options/section.h"
 #include "options/value.h"
 

@@ -1,6 +1,5 @@
 #include "stage/wake.h"
 
-#include <signal.h>
 #include <unistd.h>
 
 #include "core/quiet.h"
