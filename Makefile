@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet \
+.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet \
         lessons book readme options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
@@ -42,6 +42,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make readme     the table of techniques (src/shadow/README.md), measured
 #: make options-page
 #:                 the table of keys in src/options/README.md, from the table of options
+#: make pictures   the pictures of README.md, and how far they are from rays
 #: make gallery    one scene with every technique and the truth, into assets/gallery
 #: make models     default pictures of the models of ../shared/assets against the same by rays;
 #:                 SHADOW=.. for another technique
@@ -75,7 +76,7 @@ dist:
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
 MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
 TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-cycles check-tangents,$(filter check check-% accept full,$(GOALS)))
-IN_test     := $(TABLED) check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes gallery contact-sheet book readme
+IN_test     := $(TABLED) check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet book readme
 IN_board    := $(MACHINES)
 IN_board-arm64 := $(MACHINES)
 IN_gpus     := check-gpus accept full
@@ -358,6 +359,8 @@ options-page: $(O)/host/man
 	sh tests/options_page.sh $< > src/options/README.md.new && mv src/options/README.md.new src/options/README.md
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
+pictures: $(B)/tests/tool_sheet $(BIN) assets/book/studio.glb
+	GNOMON=$(BIN) BUILD=$(B) O=$(O) tests/image/pictures.sh
 gallery: $(B)/tests/tool_gallery $(BIN)
 	@mkdir -p assets/gallery
 	$< assets/gallery
