@@ -4,7 +4,6 @@
 
 #include "core/arena.h"
 
-#define LIFT       2e-5    /* of the scene's diagonal */
 #define LEAST_SKY  .125f   /* of the mean: harmonics of a bright spot are negative opposite to it */
 #define LEAST_DOWN (-1e-6) /* a ray that falls less does not reach the floor */
 
@@ -40,7 +39,6 @@ void gn_occlusion_init(struct gn_occlusion *o, const struct gn_scene *scene,
     for (uint32_t i = 0; i < scene->item_count; i++)
         o->pose.items[i].visible &= scene->items[i].still;
     gn_raycast_init(&o->rays, scene, &o->pose, cancel);
-    o->lift_m = LIFT * o->rays.bvh.diagonal;
 }
 
 void gn_occlusion_finish(struct gn_occlusion *o) {
@@ -88,8 +86,9 @@ double gn_occlusion_cast(const struct gn_occlusion *o, const struct gn_occlusion
     glm_vec3_normalize(side);
     glm_vec3_cross(n, side, up);
     struct gn_ray ray = {.t_min = 0, .t_max = INFINITY};
-    for (int k = 0; k < 3; k++)
-        ray.origin[k] = (double)site->point_ws[k] + o->lift_m * (double)site->face_ws[k];
+    const double face[3] = {site->face_ws[0], site->face_ws[1], site->face_ws[2]},
+                 lift_m = gn_raycast_lift_m(&o->rays, site->point_ws, face);
+    for (int k = 0; k < 3; k++) ray.origin[k] = site->point_ws[k] + lift_m * face[k];
     double light = 0;
     for (uint32_t i = first; i < last; i++) {
         double at[2], facing = 0;
@@ -122,7 +121,7 @@ void gn_occlusion_site_of(const struct gn_pose *pose, const struct gn_ray_surfac
         for (int k = 0; k < 3 && length > 0; k++) sum[k] += share[i] * n[k] / length;
     }
     for (int k = 0; k < 3; k++) {
-        site->point_ws[k] = (float)surface->point_ws[k];
+        site->point_ws[k] = surface->point_ws[k];
         site->face_ws[k] = (float)surface->normal_ws[k];
         site->normal_ws[k] = (float)sum[k];
     }

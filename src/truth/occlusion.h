@@ -22,7 +22,6 @@ struct gn_occlusion {
     struct gn_raycast rays; /* of what is still */
     struct gn_pose pose;    /* in which all else is hidden */
     struct gn_sky sky;
-    double lift_m;                /* how far off their surface rays begin */
     const struct gn_image *floor; /* of the unseen floor, or NULL */
     double floor_m, floor_corner_m[2], floor_side_m;
 };
@@ -34,7 +33,7 @@ void gn_occlusion_finish(struct gn_occlusion *occlusion);
 
 /* A point of a surface. */
 struct gn_occlusion_site {
-    float point_ws[3];
+    double point_ws[3];
     float normal_ws[3]; /* unit, of the mesh: weighs light by its cosine */
     float face_ws[3]; /* unit, of the triangle, on that side: light from below it does not count */
     float turn[2];    /* 0 to 1, by which the directions of its rays are shifted */
@@ -71,6 +70,6 @@ struct gn_occlusion_made gn_occlusion_make(const struct gn_scene *scene, const s
 uint64_t gn_occlusion_key(const struct gn_scene *scene, const struct gn_sky *sky);
 /* What a shader reads of it, 0 to 1. */
 float gn_occlusion_read(const struct gn_scene_occlusion *grid, const int8_t (*texels)[4],
-                        const float point_ws[3], const float normal_ws[3]);
+                        const double point_ws[3], const float normal_ws[3]);
 
 #endif

@@ -45,25 +45,24 @@ static bool is_cancelled(const struct gn_occlusion_work *work) {
 /* ---- sites, even over all faces ---- */
 
 struct triangle {
-    vec3 p[3], n[3], face;
-    double area;
+    double p[3][3], area;
+    vec3 n[3], face;
 };
 
 static bool read_triangle(const struct gn_pose *pose, uint32_t item, const uint32_t *index,
                           struct triangle *t) {
     const bool mirrored = pose->items[item].mirrored;
     for (int i = 0; i < 3; i++) {
-        double p[3], n[3] = {0};
-        gn_pose_vertex(pose, item, index[mirrored && i ? 3 - i : i], p, n);
-        for (int k = 0; k < 3; k++) {
-            t->p[i][k] = (float)p[k];
-            t->n[i][k] = (float)n[k];
-        }
+        double n[3] = {0};
+        gn_pose_vertex(pose, item, index[mirrored && i ? 3 - i : i], t->p[i], n);
+        for (int k = 0; k < 3; k++) t->n[i][k] = (float)n[k];
         gn_unit(t->n[i]);
     }
     vec3 a, b;
-    glm_vec3_sub(t->p[1], t->p[0], a);
-    glm_vec3_sub(t->p[2], t->p[0], b);
+    for (int k = 0; k < 3; k++) {
+        a[k] = (float)(t->p[1][k] - t->p[0][k]);
+        b[k] = (float)(t->p[2][k] - t->p[0][k]);
+    }
     glm_vec3_cross(a, b, t->face);
     t->area = (double)glm_vec3_norm(t->face) / 2;
     gn_unit(t->face);
@@ -83,7 +82,8 @@ static struct gn_occlusion_site site_on(const struct triangle *t, bool back, uin
     const bool beyond = e[0] + e[1] > 1;
     const float u = beyond ? 1 - e[0] : e[0], v = beyond ? 1 - e[1] : e[1];
     for (int k = 0; k < 3; k++) {
-        site.point_ws[k] = (1 - u - v) * t->p[0][k] + u * t->p[1][k] + v * t->p[2][k];
+        site.point_ws[k] = (1 - (double)u - (double)v) * t->p[0][k] + (double)u * t->p[1][k] +
+                           (double)v * t->p[2][k];
         site.normal_ws[k] = (1 - u - v) * t->n[0][k] + u * t->n[1][k] + v * t->n[2][k];
         site.face_ws[k] = back ? -t->face[k] : t->face[k];
     }
@@ -198,12 +198,12 @@ struct fit {
     float (*bent)[4]; /* second differences */
 };
 
-static struct corners corners_of(const struct gn_scene_occlusion *grid, const float point_ws[3]) {
+static struct corners corners_of(const struct gn_scene_occlusion *grid, const double point_ws[3]) {
     struct corners c;
     uint32_t at[3];
     for (int k = 0; k < 3; k++) {
         const float last = (float)(grid->size[k] - 1),
-                    t = glm_clamp((point_ws[k] - grid->origin[k]) / grid->cell_m, 0, last);
+                    t = glm_clamp(((float)point_ws[k] - grid->origin[k]) / grid->cell_m, 0, last);
         at[k] = (uint32_t)t < grid->size[k] - 2 ? (uint32_t)t : grid->size[k] - 2;
         c.share[k] = t - (float)at[k];
     }
@@ -413,7 +413,7 @@ struct gn_occlusion_made gn_occlusion_make(const struct gn_scene *scene, const s
 }
 
 float gn_occlusion_read(const struct gn_scene_occlusion *grid, const int8_t (*texels)[4],
-                        const float point_ws[3], const float normal_ws[3]) {
+                        const double point_ws[3], const float normal_ws[3]) {
     const struct corners c = corners_of(grid, point_ws);
     uint32_t at[8];
     float share[8], value = 0;

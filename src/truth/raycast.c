@@ -291,14 +291,10 @@ bool gn_raycast_blocks(const void *context, const struct gn_bvh_triangle *t,
     return (t->flags & CASTS) && !is_hole(rays, t, hit);
 }
 
-/* How far off a surface its shadow rays start: two units in the last place of the float coordinates
- * of the triangles there, as in Waechter, Binder 2019, "A Fast and Robust Method for Avoiding
- * Self-Intersection", along the normal: how far off a floor lies sideways is not in it. And of the
- * doubles that the point was computed from, which are as large as the scene. */
-static double lift_of(const struct gn_raycast *rays, const struct gn_ray_surface *surface) {
-    const double *p = surface->point_ws, *n = surface->normal_ws;
+double gn_raycast_lift_m(const struct gn_raycast *rays, const double point_ws[3],
+                         const double normal_ws[3]) {
     double along_m = 0;
-    for (int k = 0; k < 3; k++) along_m += fabs(p[k] * n[k]);
+    for (int k = 0; k < 3; k++) along_m += fabs(point_ws[k] * normal_ws[k]);
     return 0x1p-22 * along_m + 0x1p-40 * rays->bvh.diagonal;
 }
 
@@ -335,7 +331,7 @@ static bool is_free(const struct gn_raycast *rays, const struct gn_ray_surface *
                     const double to[3], bool endless, struct blockers *blockers) {
     if (dot(surface->normal_ws, to) <= 0 && casts_itself(rays, surface)) return false;
     struct gn_ray ray = {.t_min = 0, .t_max = endless ? INFINITY : 1};
-    const double lift_m = lift_of(rays, surface);
+    const double lift_m = gn_raycast_lift_m(rays, surface->point_ws, surface->normal_ws);
     for (int k = 0; k < 3; k++) {
         double lift = lift_m * surface->normal_ws[k];
         ray.origin[k] = surface->point_ws[k] + lift;
@@ -359,7 +355,7 @@ static void find_blockers(const struct gn_raycast *rays, const struct gn_ray_lam
                           const double u[3], const double v[3], struct blockers *blockers) {
     const bool endless = lamp->type == GN_LIGHT_DIRECTIONAL;
     struct gn_beam beam = {.t_max = endless ? INFINITY : 1};
-    const double lift_m = lift_of(rays, surface);
+    const double lift_m = gn_raycast_lift_m(rays, surface->point_ws, surface->normal_ws);
     for (int k = 0; k < 3; k++) {
         const double lift = lift_m * surface->normal_ws[k], middle = to[k] - (endless ? 0 : lift),
                      spread = 1.000001 * lamp->radius * sqrt(u[k] * u[k] + v[k] * v[k]);

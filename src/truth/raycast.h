@@ -78,6 +78,13 @@ struct gn_ray_surface {
 bool gn_raycast_eye(const struct gn_raycast *rays, const struct gn_ray_eye *eye, int x, int y,
                     struct gn_ray_surface *surface);
 
+/* How far off a surface rays from it start: two units in the last place of the float coordinates
+ * of the triangles there, as in Waechter, Binder 2019, "A Fast and Robust Method for Avoiding
+ * Self-Intersection", along the unit normal: how far off a floor lies sideways is not in it. And of
+ * the doubles that the point was computed from, which are as large as the scene. */
+double gn_raycast_lift_m(const struct gn_raycast *rays, const double point_ws[3],
+                         const double normal_ws[3]);
+
 /* A light at a pose. */
 struct gn_ray_lamp {
     enum gn_light_type type;

@@ -143,6 +143,37 @@ static void what_is_still_occludes(void **state) {
                             "{" LID "}") == 1);
 }
 
+/* A lid as wide as twice its height over the middle of a ground, against the configuration factor
+ * of a rectangle parallel to a point's plane (Howell, "A Catalog of Radiation Heat Transfer
+ * Configuration Factors", C-11): whatever else there is, and however large that is. */
+static void a_low_lid_in_a_large_scene(void **state) {
+    static const struct {
+        double ground_m, lid_m;
+    } sizes[] = {{1e-3, 1e-4}, {1, .1}, {1e3, .003}, {1e4, .1}, {1e5, .1}, {1e5, .003}};
+    const double right = 1 - 4 / M_PI * M_SQRT1_2 * atan(M_SQRT1_2);
+    (void)state;
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        const double h = sizes[i].lid_m, half = sizes[i].ground_m / 2;
+        const struct gn_occlusion_site site = {.normal_ws = {0, 1, 0}, .face_ws = {0, 1, 0}};
+        struct gn_occlusion occlusion;
+        char lid[120], ground[60];
+        double whole = 0;
+        snprintf(lid, sizeof lid, "{'mesh':1,'translation':[0,%.9g,0],'scale':[%.9g,1,%.9g]}", h, h,
+                 h);
+        snprintf(ground, sizeof ground, "{'mesh':0,'scale':[%.9g,1,%.9g]}", half, half);
+        begin_lidded("{" TWO_SIDED "}", lid);
+        gn_maker_add(&maker, "nodes", ground);
+        gn_maker_set(&maker, "scenes", "[{'nodes':[1,2]}]");
+        struct gn_scene *scene = load_lidded();
+        gn_occlusion_init(&occlusion, scene, &even, NULL);
+        const double seen = gn_occlusion_cast(&occlusion, &site, 0, 4096, &whole) / whole;
+        print_message("%g m, lid %g m up: %.4f, right %.4f\n", 2 * half, h, seen, right);
+        assert_true(fabs(seen - right) < .005);
+        gn_occlusion_finish(&occlusion);
+        gn_scene_destroy(scene);
+    }
+}
+
 /* The light of a bright zenith is behind the lid, more of it than of an even sky. */
 static void a_sky_weighs_directions(void **state) {
     const struct gn_sky zenith = {.radiance = {1, .9f}, .turn = {1, 0}},
@@ -243,6 +274,7 @@ int main(void) {
         cmocka_unit_test(any_number_of_threads_makes_the_same),
         cmocka_unit_test(cancelled_work_makes_nothing),
         cmocka_unit_test(what_is_still_occludes),
+        cmocka_unit_test(a_low_lid_in_a_large_scene),
         cmocka_unit_test(a_sky_weighs_directions),
         cmocka_unit_test(what_a_clip_moves_does_not),
         cmocka_unit_test(a_posed_mesh_is_still_without_clips),
