@@ -28,6 +28,7 @@ enum {
 /* What stays where it is: the footprint of its box over all poses is this much wider at most than
  * in the widest of them. */
 #define STAYS 1.5f
+#define HALF  UINT64_C(0x5555555555555555) /* of the shares, wherever they are */
 
 struct columns {
     float corner[2], side_m; /* x and z of the least corner; of the square that they fill */
@@ -36,45 +37,103 @@ struct columns {
     float low[COLUMNS][COLUMNS], high[COLUMNS][COLUMNS]; /* above the floor; low > high: empty */
 };
 
+/* A triangle over the columns, seen from above; lengths in columns, heights in metres. */
+struct outline {
+    float at[3][2], height[3], bottom, top;
+    float area;             /* twice, with a sign */
+    float along[2], length; /* unit, of its longest side; that side */
+    const float *on;        /* a corner of that side */
+};
+
+static void set_outline(const struct columns *c, vec3 corner[3], struct outline *t) {
+    const float scale = (float)COLUMNS / c->side_m;
+    *t = (struct outline){.bottom = INFINITY, .top = -INFINITY};
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 2; k++) t->at[i][k] = (corner[i][2 * k] - c->corner[k]) * scale;
+        t->height[i] = corner[i][1];
+        t->bottom = fminf(t->bottom, corner[i][1]);
+        t->top = fmaxf(t->top, corner[i][1]);
+    }
+    t->on = t->at[0];
+    for (int i = 0; i < 3; i++) {
+        const float *a = t->at[i], *b = t->at[(i + 1) % 3];
+        const float length = hypotf(b[0] - a[0], b[1] - a[1]);
+        if (length <= t->length) continue;
+        t->length = length;
+        t->on = a;
+        for (int k = 0; k < 2; k++) t->along[k] = (b[k] - a[k]) / length;
+    }
+    t->area = (t->at[1][0] - t->at[0][0]) * (t->at[2][1] - t->at[0][1]) -
+              (t->at[2][0] - t->at[0][0]) * (t->at[1][1] - t->at[0][1]);
+}
+
+/* The heights y over a column with the middle p of what is narrower than that, as a wall: those
+ * between two places along its longest side. In columns that meet at corners alone it leaves no gap
+ * for a ray. False: it is not there. */
+static bool find_wall(const struct outline *t, const float p[2], float y[2]) {
+    const float x = fabsf(t->along[0]), z = fabsf(t->along[1]), half = (x + z) / 2;
+    const float to[2] = {p[0] - t->on[0], p[1] - t->on[1]};
+    const float middle = to[0] * t->along[0] + to[1] * t->along[1];
+    const float aside = fabsf(to[0] * t->along[1] - to[1] * t->along[0]);
+    y[0] = INFINITY;
+    y[1] = -INFINITY;
+    if (t->length > 0 && aside > fmaxf(x, z) / 2 + fabsf(t->area) / t->length) return false;
+    for (int i = 0; i < 3; i++) { /* what of each side is within */
+        const int j = (i + 1) % 3, ends[2] = {i, j};
+        float from_middle[2], share[2] = {0, 1};
+        for (int k = 0; k < 2; k++)
+            from_middle[k] = (t->at[ends[k]][0] - t->on[0]) * t->along[0] +
+                             (t->at[ends[k]][1] - t->on[1]) * t->along[1] - middle;
+        const float length = from_middle[1] - from_middle[0];
+        if (length != 0) {
+            const float a = (-half - from_middle[0]) / length, b = (half - from_middle[0]) / length;
+            share[0] = fmaxf(share[0], fminf(a, b));
+            share[1] = fminf(share[1], fmaxf(a, b));
+        } else if (fabsf(from_middle[0]) > half)
+            continue;
+        for (int k = 0; k < 2 && share[0] <= share[1]; k++) {
+            const float height = glm_lerp(t->height[i], t->height[j], share[k]);
+            y[0] = fminf(y[0], height);
+            y[1] = fmaxf(y[1], height);
+        }
+    }
+    return y[0] <= y[1];
+}
+
+/* The same of what is wider: one height, as its slope within a column counts for nothing. */
+static bool find_roof(const struct outline *t, const float p[2], float y[2]) {
+    float height = 0;
+    for (int i = 0; i < 3; i++) {
+        const float *a = t->at[(i + 1) % 3], *b = t->at[(i + 2) % 3];
+        const float share =
+            ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])) / t->area;
+        height += share * t->height[i];
+        /* farther from the middle than its corners are */
+        if (share * fabsf(t->area) < -.7072f * hypotf(b[0] - a[0], b[1] - a[1])) return false;
+    }
+    y[0] = y[1] = glm_clamp(height, t->bottom, t->top);
+    return true;
+}
+
 /* Widens the columns that a triangle passes through, with the heights that it has there. */
 static void add_triangle(struct columns *c, vec3 corner[3]) {
-    const float scale = (float)COLUMNS / c->side_m;
-    float at[3][2], least[2] = {COLUMNS, COLUMNS}, most[2] = {0, 0};
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 2; k++) {
-            at[i][k] = (corner[i][2 * k] - c->corner[k]) * scale;
-            least[k] = fminf(least[k], at[i][k]);
-            most[k] = fmaxf(most[k], at[i][k]);
-        }
-    if (!(most[0] >= 0 && most[1] >= 0 && least[0] < COLUMNS && least[1] < COLUMNS)) return;
-    const float area = (at[1][0] - at[0][0]) * (at[2][1] - at[0][1]) -
-                       (at[2][0] - at[0][0]) * (at[1][1] - at[0][1]);
-    const float bottom = fminf(fminf(corner[0][1], corner[1][1]), corner[2][1]);
-    const float top = fmaxf(fmaxf(corner[0][1], corner[1][1]), corner[2][1]);
+    struct outline t;
     int first[2], last[2];
+    set_outline(c, corner, &t);
     for (int k = 0; k < 2; k++) {
-        first[k] = (int)glm_clamp(floorf(least[k]), 0, COLUMNS - 1);
-        last[k] = (int)glm_clamp(floorf(most[k]), 0, COLUMNS - 1);
+        const float least = fminf(fminf(t.at[0][k], t.at[1][k]), t.at[2][k]);
+        const float most = fmaxf(fmaxf(t.at[0][k], t.at[1][k]), t.at[2][k]);
+        if (!(most >= 0 && least < COLUMNS)) return;
+        first[k] = (int)glm_clamp(floorf(least), 0, COLUMNS - 1);
+        last[k] = (int)glm_clamp(floorf(most), 0, COLUMNS - 1);
     }
+    const bool is_wide = fabsf(t.area) > t.length;
     c->work_left -= (int64_t)(last[0] - first[0] + 1) * (last[1] - first[1] + 1);
     for (int z = first[1]; z <= last[1]; z++)
         for (int x = first[0]; x <= last[0]; x++) {
-            float y[2] = {bottom, top}; /* of a wall, which is seen from its edge */
-            if (fabsf(area) > 1e-3f) {
-                const float p[2] = {(float)x + .5f, (float)z + .5f};
-                float share[3], height = 0, outside = 0;
-                for (int i = 0; i < 3; i++) {
-                    const float *a = at[(i + 1) % 3], *b = at[(i + 2) % 3];
-                    share[i] =
-                        ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])) / area;
-                    height += share[i] * corner[i][1];
-                    outside = fminf(outside, share[i] * fabsf(area) /
-                                                 fmaxf(hypotf(b[0] - a[0], b[1] - a[1]), 1e-6f));
-                }
-                if (outside < -.7072f) continue; /* farther from the middle than its corners are */
-                /* its slope within a column */
-                y[0] = y[1] = glm_clamp(height, bottom, top);
-            }
+            const float p[2] = {(float)x + .5f, (float)z + .5f};
+            float y[2];
+            if (!(is_wide ? find_roof(&t, p, y) : find_wall(&t, p, y))) continue;
             for (int k = 0; k < 2; k++) {
                 const int at_k = k ? z : x;
                 if (at_k < c->first[k]) c->first[k] = at_k;
@@ -157,11 +216,30 @@ static uint64_t bits_between(float from, float to) {
     return (b - a >= SHARES ? ~UINT64_C(0) : (UINT64_C(1) << (b - a)) - 1) << a;
 }
 
+static bool is_stood_on(const struct columns *c, int x, int z) {
+    return x >= 0 && z >= 0 && x < COLUMNS && z < COLUMNS &&
+           c->low[z][x] < .25f * c->side_m / COLUMNS;
+}
+
+/* Whether something stands on the floor at the middle of a texel, which nobody sees there: in most
+ * of the columns around, or it is a wall. */
+static bool is_under(const struct columns *c, int x, int z) {
+    const int step = COLUMNS / TEXELS, at[2] = {x * step + step / 2, z * step + step / 2};
+    bool under = true;
+    int around = 0;
+    for (int i = 0; i < 4; i++) under &= is_stood_on(c, at[0] - i % 2, at[1] - i / 2);
+    for (int i = 0; i < 16 && under; i++)
+        around += is_stood_on(c, at[0] - 2 + i % 4, at[1] - 2 + i / 4);
+    return around > 8;
+}
+
 /* Which shares of the elevations the columns hide that a ray of the floor passes, one after the
- * other (Amanatides, Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987); x, z, and
- * lengths in columns. */
-static uint64_t hidden_along(const struct columns *c, float x, float z, float dx, float dz) {
-    const float column_m = c->side_m / COLUMNS;
+ * other (Amanatides, Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987); from, and
+ * lengths, in columns. at_first: those that the column in which it begins may hide. */
+static uint64_t hidden_along(const struct columns *c, const float from[2], const float along[2],
+                             uint64_t at_first) {
+    const float x = from[0], z = from[1], dx = along[0], dz = along[1],
+                column_m = c->side_m / COLUMNS;
     const float each[2] = {1 / fmaxf(fabsf(dx), 1e-6f), 1 / fmaxf(fabsf(dz), 1e-6f)};
     const int step[2] = {dx < 0 ? -1 : 1, dz < 0 ? -1 : 1};
     const int end[2] = {dx < 0 ? c->first[0] - 1 : c->last[0] + 1,
@@ -181,8 +259,9 @@ static uint64_t hidden_along(const struct columns *c, float x, float z, float dx
             now[1] = high * high / (high * high + r2);
             /* what lies between two solid columns is solid, too */
             const bool joined = before[0] <= before[1];
-            bits |= bits_between(joined ? fminf(now[0], before[0]) : now[0],
-                                 joined ? fmaxf(now[1], before[1]) : now[1]);
+            const uint64_t hides = bits_between(joined ? fminf(now[0], before[0]) : now[0],
+                                                joined ? fmaxf(now[1], before[1]) : now[1]);
+            bits |= r > 0 ? hides : hides & at_first;
         }
         before[0] = now[0];
         before[1] = now[1];
@@ -193,24 +272,19 @@ static uint64_t hidden_along(const struct columns *c, float x, float z, float dx
     return bits;
 }
 
-/* Share of a uniform sky that a point of the floor sees; x, z: in columns; turn: of its azimuths,
- * from 0 to 1. */
-static float seen_sky(const struct columns *c, float x, float z, float turn) {
+/* Share of a uniform sky that the middle of a texel sees; turn: of its azimuths, from 0 to 1. What
+ * stands in a column beside it, and not on it, may be a wall on either side. */
+static float seen_sky(const struct columns *c, int x, int z, float turn) {
+    const uint64_t at_first = is_under(c, x, z) ? ~UINT64_C(0) : HALF;
+    const float step = (float)COLUMNS / TEXELS,
+                at[2] = {((float)x + .5f) * step, ((float)z + .5f) * step};
     int hidden = 0;
     for (int a = 0; a < AZIMUTHS; a++) {
         const float azimuth = ((float)a + turn) * 2 * GLM_PIf / AZIMUTHS;
-        hidden += __builtin_popcountll(hidden_along(c, x, z, cosf(azimuth), sinf(azimuth)));
+        hidden += __builtin_popcountll(
+            hidden_along(c, at, (float[2]){cosf(azimuth), sinf(azimuth)}, at_first));
     }
     return 1 - (float)hidden / (SHARES * AZIMUTHS);
-}
-
-/* Whether something stands on the floor at the middle of a texel, which nobody sees there. */
-static bool is_under(const struct columns *c, int x, int z) {
-    const int step = COLUMNS / TEXELS, at[2] = {x * step + step / 2, z * step + step / 2};
-    bool under = true;
-    for (int i = 0; i < 4; i++)
-        under &= c->low[at[1] - i / 2][at[0] - i % 2] < .25f * c->side_m / COLUMNS;
-    return under;
 }
 
 /* Each of the turns around a texel with the same weight: a tent, of halves at its rim. Contacts
@@ -254,12 +328,10 @@ static int32_t add_texture(struct gn_gltf *g, uint8_t *rgba) {
 
 /* Adds to each texel the share of the sky that it sees; seen: room for all. */
 static void add_sky(const struct columns *c, float (*seen)[TEXELS], float (*sum)[TEXELS]) {
-    const float step = (float)COLUMNS / TEXELS;
     for (int z = 0; z < TEXELS; z++)
         for (int x = 0; x < TEXELS; x++) {
             const int turn = x % TURNS + TURNS * ((x + z) % TURNS);
-            seen[z][x] = seen_sky(c, ((float)x + .5f) * step, ((float)z + .5f) * step,
-                                  (float)turn / (TURNS * TURNS));
+            seen[z][x] = seen_sky(c, x, z, (float)turn / (TURNS * TURNS));
         }
     for (int z = 0; z < TEXELS; z++)
         for (int x = 0; x < TEXELS; x++) sum[z][x] += mean_of_turns(c, seen, x, z);
