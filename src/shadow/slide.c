@@ -4,7 +4,7 @@
 
 #include "shadow/fit.h"
 
-#define LEAST_M 1e-4f /* what is nearer to the light gets nothing of the slide */
+#define LEAST_M 1e-6f /* what is nearer to the light gets nothing of the slide */
 
 enum gn_slide gn_slide_of(const struct gn_light *light) {
     if (!gn_light_types[light->type].has_cone || light->slide < 0) return GN_SLIDE_NONE;

@@ -104,6 +104,8 @@ static void test_without_a_size_it_is_as_large_as_the_cone(void **state) {
     light.slide_distance_m = 0;
     expect(5, 5, -5, 1, 0);
     assert_true(near_of() > 0 && near_of() < 0.001f);
+    light.slide_distance_m = 2e-5f; /* in a scene of 1 mm */
+    assert_float_equal(near_of(), 2e-5, 0);
 }
 
 static void test_a_size_alone_spans_the_cone_with_its_longer_side(void **state) {
