@@ -63,10 +63,15 @@ static void find_movable(const struct gn_baker *b, bool *movable, size_t *users,
     }
 }
 
-static void fit_grid(struct gn_grid *grid, const struct bounds *bounds) {
-    double size = 0;
-    for (int k = 0; k < 3; k++) size = fmax(size, bounds->high[k] - bounds->low[k]);
-    grid->step = size > 0 ? exp2(ceil(log2(size / STEPS))) : 1;
+/* False: of no size, or so far off for its size that the grid's numbers would not be exact. */
+static bool fit_grid(struct gn_grid *grid, const struct bounds *bounds) {
+    double size = 0, far = 0;
+    for (int k = 0; k < 3; k++) {
+        size = fmax(size, bounds->high[k] - bounds->low[k]);
+        far = fmax(far, fmax(fabs(bounds->low[k]), fabs(bounds->high[k])));
+    }
+    grid->step = exp2(ceil(log2(size / STEPS)));
+    if (!(size > 0) || far / grid->step > 9e15) return false;
     for (bool fits = false; !fits; grid->step *= fits ? 1 : 2) { /* ends may round outwards */
         fits = true;
         for (int k = 0; k < 3; k++) {
@@ -74,6 +79,7 @@ static void fit_grid(struct gn_grid *grid, const struct bounds *bounds) {
             fits &= llrint(bounds->high[k] / grid->step) - grid->origin[k] <= STEPS;
         }
     }
+    return true;
 }
 
 /* users: nodes that can undo a grid, or 0. *finite: whether its primitives can be made anew. */
@@ -90,7 +96,7 @@ static struct gn_grid choose_grid(struct gn_baker *b, const json_t *mesh, size_t
         const int64_t position =
             gn_bake_number(json_object_get(primitive, "attributes"), "POSITION");
         struct gn_elements e = {0};
-        if (position < 0) continue;
+        if (position < 0 || !gn_bake_has_triangles(primitive)) continue;
         any = true;
         if (!gn_document_accessor(b->in, (size_t)position, &e)) b->failed = true;
         const uint8_t *used = b->failed ? NULL : find_used(b, primitive, e.count);
@@ -103,10 +109,8 @@ static struct gn_grid choose_grid(struct gn_baker *b, const json_t *mesh, size_t
             grid.kind = GN_GRID_FLOATS;
     }
     if (vertices / NODE_VERTICES < users) grid.kind = GN_GRID_FLOATS;
-    if (!floats || !any || bounds.low[0] > bounds.high[0])
+    if (!floats || !any || bounds.low[0] > bounds.high[0] || !fit_grid(&grid, &bounds))
         grid.kind = GN_GRID_NONE;
-    else
-        fit_grid(&grid, &bounds);
     return grid;
 }
 
@@ -131,8 +135,7 @@ static bool bake_mesh(struct gn_baker *b, json_t *mesh, size_t index, bool movab
     size_t i, triangles = 0;
     json_array_foreach(primitives, i, primitive) {
         if (!has_data(b, primitive, index)) return false;
-        const int64_t mode = gn_bake_number(primitive, "mode");
-        triangles += mode < 0 || (mode >= 4 && mode <= 6);
+        triangles += gn_bake_has_triangles(primitive);
     }
     locks_border = json_array_size(primitives) > 1;
     /* lines and points of a mesh would need the grid, too */

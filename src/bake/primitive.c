@@ -1,5 +1,6 @@
 /* One primitive: reads its attributes, merges equal vertices, orders triangles and vertices, and
  * writes all of it anew. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,7 +20,59 @@ struct primitive {
     float *positions;
     uint32_t *corners, *remap;
     size_t corner_count, vertex_count;
+    double uv_step; /* of a grid of texture coordinates; 0: they stay as they are */
 };
+
+bool gn_bake_has_triangles(const json_t *primitive) {
+    const int64_t mode = gn_bake_number(primitive, "mode");
+    return mode < 0 || (mode >= GN_MODE_TRIANGLES && mode <= GN_MODE_FAN);
+}
+
+/* ---- texture coordinates ---- */
+
+/* Textures of up to 4096 texels are read to a 32nd of one. */
+#define UV_STEP (1.0 / 65536)
+
+/* The largest scale of KHR_texture_transform in a material. */
+static double find_scale(const json_t *json) {
+    const json_t *value, *number;
+    const char *key;
+    size_t i;
+    double most = 1;
+    json_array_foreach(json_object_get(gn_bake_extension(json, "KHR_texture_transform"), "scale"),
+                       i, number) most = fmax(most, fabs(json_number_value(number)));
+    json_object_foreach((json_t *)(uintptr_t)json, key, value) most = fmax(most, find_scale(value));
+    return most;
+}
+
+/* Whether a clip changes such a scale. */
+static bool moves_scale(const struct gn_baker *b) {
+    const json_t *animation, *channel;
+    size_t i, k;
+    json_array_foreach(json_object_get(b->root, "animations"), i, animation)
+        json_array_foreach(json_object_get(animation, "channels"), k, channel) {
+        const char *pointer = json_string_value(json_object_get(
+            gn_bake_extension(json_object_get(channel, "target"), "KHR_animation_pointer"),
+            "pointer"));
+        if (pointer && strstr(pointer, "KHR_texture_transform/scale")) return true;
+    }
+    return false;
+}
+
+/* A power of two that the materials of the primitive, in any variant, make no larger than UV_STEP.
+ */
+static double fit_uv_step(const struct primitive *p) {
+    const json_t *materials = json_object_get(p->b->root, "materials"), *mapping,
+                 *variants = gn_bake_extension(p->json, "KHR_materials_variants");
+    const int64_t material = gn_bake_number(p->json, "material");
+    double scale = material < 0 ? 1 : find_scale(json_array_get(materials, (size_t)material));
+    size_t i;
+    json_array_foreach(json_object_get(variants, "mappings"), i, mapping) {
+        const int64_t other = gn_bake_number(mapping, "material");
+        if (other >= 0) scale = fmax(scale, find_scale(json_array_get(materials, (size_t)other)));
+    }
+    return scale < 1e9 && !moves_scale(p->b) ? UV_STEP / exp2(ceil(log2(scale))) : 0;
+}
 
 /* ---- reading ---- */
 
@@ -46,8 +99,10 @@ static bool read_set(struct primitive *p, json_t *set, int target, const struct 
         if (e.count != p->vertex_count)
             return gn_bake_fail(p->b, "accessors[%lld] (%.40s): %zu elements, but POSITION has %zu",
                                 (long long)accessor, semantic, e.count, p->vertex_count);
-        *s = (struct gn_stream){
-            .accessor = (size_t)accessor, .target = target, .semantic = semantic};
+        *s = (struct gn_stream){.accessor = (size_t)accessor,
+                                .target = target,
+                                .semantic = semantic,
+                                .uv_step = p->uv_step};
         if (!gn_stream_read(p->b, grid, alone, s)) return false;
         p->bytes[p->stream_count++] = (struct gn_stream_bytes){s->data, s->stride};
     }
@@ -188,11 +243,11 @@ static json_t *write_primitive(struct primitive *p) {
 /* What the primitive reads, and how it is written, as a text; to be freed. */
 static char *name_source(const struct primitive *p, const struct gn_grid *grid, bool locks_border) {
     json_t *source = json_pack(
-        "{s:O*,s:O*,s:O*,s:O*,s:[iiifIII]}", "attributes", json_object_get(p->json, "attributes"),
+        "{s:O*,s:O*,s:O*,s:O*,s:[iiiffIII]}", "attributes", json_object_get(p->json, "attributes"),
         "indices", json_object_get(p->json, "indices"), "targets", targets_of(p), "mode",
         json_object_get(p->json, "mode"), "grid", (int)grid->kind, (int)keeps_order(p),
-        (int)locks_border, grid->step, (json_int_t)grid->origin[0], (json_int_t)grid->origin[1],
-        (json_int_t)grid->origin[2]);
+        (int)locks_border, p->uv_step, grid->step, (json_int_t)grid->origin[0],
+        (json_int_t)grid->origin[1], (json_int_t)grid->origin[2]);
     char *text = source ? json_dumps(source, JSON_SORT_KEYS | JSON_COMPACT) : NULL;
     json_decref(source);
     return text;
@@ -218,10 +273,11 @@ bool gn_bake_primitive(struct gn_baker *b, json_t *json, const struct gn_grid *g
     const int64_t position = gn_bake_number(json_object_get(json, "attributes"), "POSITION");
     struct gn_elements e;
     *baked = false;
-    if (mode < GN_MODE_TRIANGLES || mode > GN_MODE_FAN || position < 0) return true;
+    if (!gn_bake_has_triangles(json) || position < 0) return true;
     if (!gn_document_accessor(b->in, (size_t)position, &e)) return !(b->failed = true);
     if (e.components != 3 || e.count > UINT32_MAX) return true;
     p.vertex_count = e.count;
+    p.uv_step = fit_uv_step(&p);
     char *source = name_source(&p, grid, locks_border);
     if (!source) return gn_bake_fail(b, "out of memory");
     json_t *shape = json_incref(json_object_get(b->known, source));

@@ -12,7 +12,7 @@
 /* How the positions of a mesh are written. Its grid has steps of a power of two and begins at a
  * multiple of one, so that what lies on the grid, as most flat walls and floors, stays exact. */
 enum gn_grid_kind {
-    GN_GRID_NONE,   /* as the file has them: integers, or not finite */
+    GN_GRID_NONE,   /* as the file has them: integers, not finite, of no size */
     GN_GRID_FLOATS, /* floats on the grid: of skins, morph targets, instances */
     GN_GRID_SHORTS, /* 16 bits, and the nodes of the mesh undo it */
 };
@@ -86,6 +86,7 @@ struct gn_stream {
     size_t accessor;               /* of the file */
     int target;                    /* of a morph target, or -1 */
     const char *semantic;
+    double uv_step; /* of texture coordinates; 0: as they are */
 };
 /* In memory of the step. alone: of weights, no other set has more of them. */
 bool gn_stream_read(struct gn_baker *b, const struct gn_grid *grid, bool alone,
@@ -95,6 +96,8 @@ size_t gn_stream_write(struct gn_baker *b, const struct gn_stream *stream, size_
 
 /* ---- primitive.c, mesh.c, node.c, keep.c, texture.c: the steps of bake.c ---- */
 
+/* By its mode. */
+bool gn_bake_has_triangles(const json_t *primitive);
 /* One with triangles; *baked is false where it stays as it is. locks_border: its mesh has others.
  */
 bool gn_bake_primitive(struct gn_baker *b, json_t *primitive, const struct gn_grid *grid,

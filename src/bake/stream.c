@@ -4,9 +4,7 @@
 
 #include "bake/private.h"
 
-/* Textures of up to 4096 texels are read to a sixteenth of one, directions to .06 degrees. */
-#define UV_STEP        (1.0 / 65536)
-#define DIRECTION_STEP (1.0 / 1024)
+#define DIRECTION_STEP (1.0 / 1024) /* of targets: .05 degrees */
 
 static bool starts_with(const char *text, const char *start) {
     return strncmp(text, start, strlen(start)) == 0;
@@ -166,9 +164,10 @@ static bool put_floats(struct gn_baker *b, const struct gn_grid *grid, bool alon
     if (directs && n >= 3)
         return is_base ? put_directions(b, values, e->count, n, s)
                        : put_rounded(b, values, e->count, n, DIRECTION_STEP, s);
-    if (starts_with(s->semantic, "TEXCOORD_") && n == 2)
-        return unorm && is_base ? put_unorm(b, values, e->count, n, GN_COMPONENT_U16, s)
-                                : put_rounded(b, values, e->count, n, UV_STEP, s);
+    if (starts_with(s->semantic, "TEXCOORD_") && n == 2 && s->uv_step > 0)
+        return unorm && is_base && s->uv_step * 65536 >= 1
+                   ? put_unorm(b, values, e->count, n, GN_COMPONENT_U16, s)
+                   : put_rounded(b, values, e->count, n, s->uv_step, s);
     if (starts_with(s->semantic, "COLOR_") && unorm && is_base)
         return put_unorm(b, values, e->count, n, GN_COMPONENT_U8, s);
     if (starts_with(s->semantic, "WEIGHTS_") && unorm && alone && n == 4)
