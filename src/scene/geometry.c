@@ -398,10 +398,10 @@ bool gn_gltf_geometries(struct gn_gltf *g) {
             geometry->attributes |= (uint32_t)(shape->attribute[k] >= 0) << k;
         bool filled = shape->vertices == UINT32_MAX ? fill_own_geometry(g, &at, shape, geometry)
                                                     : fill_shared_geometry(g, &at, shape, geometry);
-        if (!filled || !gn_gltf_check_time(g)) return false;
+        if ((!filled && !gn_gltf_spare(g, "not shown")) || !gn_gltf_check_time(g)) return false;
         scene->buffers.index_count += geometry->index_count;
         gn_geometry_measure(scene, geometry, &shape->area);
-        if (gn_geometry_has(geometry, GN_ATTRIBUTE_JOINTS0) && !gn_skin_measure(g, geometry))
+        if (gn_geometry_has(geometry, GN_ATTRIBUTE_JOINTS0) && !gn_skin_measure(g, &at, geometry))
             return false;
         if (shape->attribute[GN_ATTRIBUTE_NORMAL] >=
             0) /* else its normals are those of the faces */

@@ -77,6 +77,7 @@ bool gn_morph_build(struct gn_gltf *g, const struct gn_at *primitive, const stru
     int32_t(*parts)[PARTS] = gn_gltf_alloc(g, &g->memory.step, made.count, sizeof *parts);
     for (uint32_t t = 0; t < made.count && !g->failed; t++) {
         struct gn_at target = gn_at_item(g, &list, t);
+        gn_gltf_spare(g, "shown without it");
         for (int part = 0; part < PARTS && !g->failed; part++) {
             const bool read = part == 0 || (part == 1 && !by_faces) ||
                               (part == 2 && gn_geometry_has(geometry, GN_ATTRIBUTE_TANGENT));

@@ -24,6 +24,7 @@ struct gn_blob { /* bytes of a file, a data URI or a part of the model itself */
 struct gn_buffer_view {
     const uint8_t *data;
     size_t size, stride; /* stride 0: tight */
+    int32_t buffer;      /* -1: it names none that is there */
 };
 
 enum gn_component { /* glTF's numbers */
@@ -189,6 +190,7 @@ struct gn_gltf {
     unsigned permille[2];        /* of the load, where its present step begins and ends */
     uint32_t getters;            /* calls since the start; every so often one looks at the clock */
     bool failed, failed_part;    /* part: by what the file has at one place, by no limit */
+    struct gn_err spared;        /* the first failure that gn_gltf_spare() took back */
     bool is_missing[GN_MISSING_COUNT];
     struct gn_gltf_memory memory;
     struct gn_gltf_file file;
@@ -216,6 +218,10 @@ void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format,
  * not failed before: where it is at fault, its failure becomes a warning that ends in `without`,
  * the load goes on, and the answer is true. Failures by limits and of memory stay. */
 bool gn_gltf_spare(struct gn_gltf *g, const char *without);
+
+/* Nothing is left to be shown: for the first part that was done without, or else for that reason.
+ */
+bool gn_gltf_fail_empty(struct gn_gltf *g, const struct gn_at *at, const char *why);
 
 /* ---- gltf/memory.c ---- */
 
@@ -344,8 +350,8 @@ void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geome
  * named by source, or the same number if source is NULL. Weights become 1 together. */
 bool gn_skin_put_vertices(struct gn_gltf *g, const int32_t *attribute, const uint32_t *source,
                           size_t first, size_t count);
-/* Sets joint_boxes of a geometry with joints. */
-bool gn_skin_measure(struct gn_gltf *g, struct gn_geometry *geometry);
+/* Sets joint_boxes of a geometry with joints, of the primitive at `at`. */
+bool gn_skin_measure(struct gn_gltf *g, const struct gn_at *at, struct gn_geometry *geometry);
 
 /* morph.c: reads the targets of a geometry whose vertices are there; source as above. None where
  * there is no room for their deltas, with a warning. */

@@ -59,7 +59,7 @@ bool gn_skin_put_vertices(struct gn_gltf *g, const int32_t *attribute, const uin
     return !g->failed;
 }
 
-bool gn_skin_measure(struct gn_gltf *g, struct gn_geometry *geometry) {
+bool gn_skin_measure(struct gn_gltf *g, const struct gn_at *at, struct gn_geometry *geometry) {
     const struct gn_scene_buffers *b = &g->scene->buffers;
     const uint32_t *indices = b->indices + geometry->first_index;
     const int sets = gn_geometry_has(geometry, GN_ATTRIBUTE_JOINTS1) ? 2 : 1;
@@ -71,10 +71,13 @@ bool gn_skin_measure(struct gn_gltf *g, struct gn_geometry *geometry) {
             const size_t at = PER_SET * (size_t)indices[i] + (size_t)(k % PER_SET);
             if (joints[k / PER_SET][at] >= count) count = joints[k / PER_SET][at] + 1u;
         }
-    if (count > GN_JOINTS_MAX)
-        return gn_gltf_fail(g, NULL,
-                            "a vertex is of joint %" PRIu32 "; a skin has at most %d joints",
-                            count - 1, GN_JOINTS_MAX);
+    if (count > GN_JOINTS_MAX) {
+        gn_gltf_warn(g, at,
+                     "a vertex is of joint %" PRIu32
+                     "; a skin has at most %d joints; shown without it",
+                     count - 1, GN_JOINTS_MAX);
+        return true;
+    }
     struct gn_box *boxes = gn_gltf_alloc(g, &g->memory.step, count, sizeof *boxes);
     if (!boxes) return false;
     for (uint32_t j = 0; j < count; j++) glm_aabb_invalidate((vec3 *)&boxes[j]);

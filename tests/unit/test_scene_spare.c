@@ -149,6 +149,77 @@ static void test_copies_lose_the_attribute_that_is_short(void **state) {
     gn_scene_destroy(scene);
 }
 
+/* Numbers that a file may have are no places. */
+static void test_copies_that_are_nowhere_are_not_shown(void **state) {
+    (void)state;
+    static const float moves[3][3] = {{0}, {NAN, 0, 0}, {3, INFINITY, 0}};
+    char json[300];
+    const int t = gn_maker_accessor(&maker, "VEC3", 5126, 3, moves, sizeof moves, NULL);
+    snprintf(json, sizeof json,
+             "[{'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':{'attributes':"
+             "{'TRANSLATION':%d}}}}]",
+             t);
+    gn_maker_set(&maker, "nodes", json);
+    struct gn_scene *scene = load_square();
+    assert_string_equal(warnings.text[0],
+                        "t: nodes[0]: 2 copies with numbers that are not finite are not shown");
+    assert_true(scene->box.max[0] == 1 && scene->box.min[0] == -1);
+    assert_true(scene->instances[1][0][0] == 0 && scene->instances[1][3][0] == 0);
+    gn_scene_destroy(scene);
+}
+
+/* The square is shown, and a warning begins so. */
+static void spare_key(const char *key, const char *json, const char *message) {
+    setup(NULL);
+    gn_maker_set(&maker, key, json);
+    struct gn_scene *scene = load_square();
+    assert_int_equal(scene->triangle_count, 2);
+    if (!strstr(warnings.text[0], message)) fail_msg("%s, not %s", warnings.text[0], message);
+    assert_string_equal(err.text, "");
+    gn_scene_destroy(scene);
+}
+
+static void test_wrong_json_of_a_part_costs_that_part(void **state) {
+    (void)state;
+    static const struct {
+        const char *key, *json, *message;
+    } rows[] = {
+        {"nodes", "[{'mesh':0,'translation':[1,2]}]",
+         "t: nodes[0].translation: must have 3 numbers, has 2"},
+        {"nodes", "[{'mesh':0,'scale':[1,1e300,2]}]", "t: nodes[0].scale[1]: 1e+300 is too large"},
+        {"nodes", "[{'mesh':0,'children':[0]}]", "t: nodes[0]: is its own ancestor"},
+        {"nodes", "[{'children':[1]},{'children':[0],'mesh':0}]",
+         "t: nodes[0]: is its own ancestor"},
+        {"scene", "3", "t: scene: index 3, but there are 1 scenes"},
+        {"materials", "[{'pbrMetallicRoughness':[]}]",
+         "t: materials[0].pbrMetallicRoughness: must be an object, is an array"},
+        {"materials", "[{'doubleSided':1}]",
+         "t: materials[0].doubleSided: must be true or false, is a number"},
+        {"nodes", "[{'mesh':0,'camera':3}]",
+         "t: nodes[0].camera: index 3, but there are 0 cameras"},
+        {"nodes", "[{'mesh':0,'skin':3}]", "t: nodes[0].skin: index 3, but there are 0 skins"},
+        {"nodes", "[{'mesh':0,'children':[null,7]}]",
+         "t: nodes[0].children[0]: must be an index, is null"},
+        {"nodes", "[{'mesh':0,'name':3}]", "t: nodes[0].name: must be a string, is a number"},
+        {"nodes", "[{'mesh':0},[]]", "t: nodes[1]: must be an object, is an array"},
+        {"samplers", "{}", "t: samplers: must be an array, is an object"},
+        {"scenes", "[{'nodes':[8,0]}]", "t: scenes[0].nodes[0]: index 8, but there are 1 nodes"},
+        {"meshes",
+         "[{'primitives':[{'attributes':{'POSITION':0},'indices':1},"
+         "{'attributes':{'POSITION':0},'indices':9}]}]",
+         "t: meshes[0].primitives[1].indices: index 9, but there are 2 accessors; not shown"},
+        {"meshes", "[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':4},3]}]",
+         "t: meshes[0].primitives[1]: must be an object, is a number; not shown"},
+        {"animations", "[{'channels':[{'sampler':5,'target':{'node':0,'path':'scale'}}]}]",
+         "t: animations[0].channels[0].sampler: index 5, but there are 0 samplers; not played"},
+        {"images", "[{'uri':7}]", ""},
+        {"extensions", "{'KHR_lights_punctual':{'lights':3}}",
+         "t: extensions.KHR_lights_punctual.lights: must be an array, is a number; ignored"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        spare_key(rows[i].key, rows[i].json, rows[i].message);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup(test_keys_before_zero_are_played_from_zero_on, setup),
@@ -156,6 +227,8 @@ int main(void) {
         cmocka_unit_test_setup(test_an_attribute_that_is_short_is_left_out_and_named, setup),
         cmocka_unit_test_setup(test_an_attribute_past_the_end_of_its_view_is_left_out, setup),
         cmocka_unit_test_setup(test_positions_and_limits_are_not_done_without, setup),
+        cmocka_unit_test_setup(test_copies_that_are_nowhere_are_not_shown, setup),
+        cmocka_unit_test(test_wrong_json_of_a_part_costs_that_part),
         cmocka_unit_test_setup(test_copies_lose_the_attribute_that_is_short, setup),
     };
     return RUN(tests);

@@ -280,9 +280,12 @@ static void test_scale(void **state) {
 static void test_normal_texture_out_of_range(void **state) {
     (void)state;
     add_grid("[{'normalTexture':{'index':1}}]");
-    assert_null(gn_maker_load(&maker, NULL, &err));
-    assert_string_equal(err.text,
-                        "t: materials[0].normalTexture.index: index 1, but there are 1 textures");
+    struct gn_scene *scene = load();
+    assert_string_equal(warnings.text[0],
+                        "t: materials[0].normalTexture.index: index 1, but there are 1 textures; "
+                        "shown without this texture");
+    assert_int_equal(scene->materials[0].textures[GN_TEXTURE_NORMAL].texture, -1);
+    gn_scene_destroy(scene);
 }
 
 int main(void) {

@@ -51,9 +51,9 @@ static const uint8_t *span_data(struct gn_gltf *g, const struct gn_at *at, struc
                 !__builtin_add_overflow(end, span->offset, &end);
     if (!view->data)
         gn_gltf_fail(g, at,
-                     "the buffer of bufferView %d holds no data; if the file is compressed, "
+                     "bufferView %d, of buffer %d, holds no data; if the file is compressed, "
                      "decompress it first (gltf-transform can)",
-                     span->view);
+                     span->view, view->buffer);
     else if (span->stride < span->element)
         gn_gltf_fail(g, at, "byteStride %zu of bufferView %d is less than an element of %zu bytes",
                      span->stride, span->view, span->element);

@@ -198,9 +198,11 @@ static bool read_channel(struct gn_gltf *g, const struct gn_at *at, const struct
                 sampler.output->count / per_key == sampler.input->count &&
                 !(of_record && target.property.thing == GN_THING_NODE && per_key == 3);
     g->key_total += fits ? sampler.output->count : 0;
-    if (g->key_total > g->limits.keys)
-        return gn_gltf_fail(g, at, "more animation keys than the limit keys=%" PRIu64,
-                            g->limits.keys);
+    if (g->key_total > g->limits.keys) {
+        gn_gltf_fail(g, at, "more animation keys than the limit keys=%" PRIu64, g->limits.keys);
+        g->failed_part = false;
+        return false;
+    }
     channel->node = (uint32_t)target.node;
     channel->interpolation = sampler.interpolation;
     channel->key_count = (uint32_t)sampler.input->count;
@@ -247,7 +249,8 @@ bool gn_gltf_animations(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), array = gn_at_array(g, &root, "animations");
     size_t count = gn_at_size(&array), channel_count = 0;
     for (size_t i = 0; i < count && !g->failed; i++) {
-        struct gn_at at = gn_at_item(g, &array, i), list = gn_at_array(g, &at, "channels");
+        struct gn_at at = gn_at_element(&array, i), list = gn_at_array(g, &at, "channels");
+        gn_gltf_spare(g, "not played");
         channel_count += gn_at_size(&list);
     }
     GN_NEW(g, g->memory.scene, animation->clips, count);
@@ -257,17 +260,18 @@ bool gn_gltf_animations(struct gn_gltf *g) {
     for (size_t i = 0; i < count && !g->failed; i++) {
         struct gn_at at = gn_at_element(&array, i);
         struct gn_clip *clip = &animation->clips[animation->clip_count++];
-        struct gn_at samplers = gn_at_array(g, &at, "samplers"),
-                     list = gn_at_array(g, &at, "channels");
+        struct gn_at samplers = gn_at_array(g, &at, "samplers"), list = gn_at_any(&at, "channels");
         float last_s = 0;
-        clip->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
+        gn_gltf_spare(g, "not played");
+        clip->name = gn_gltf_strdup(g, gn_at_name(g, &at));
         gn_gltf_check_time(g);
         clip->first_channel = animation->channel_count;
         clip->on_by_default = true;
         for (size_t k = 0; k < gn_at_size(&list) && !g->failed; k++) {
             struct gn_at channel_at = gn_at_item(g, &list, k);
             struct gn_channel *channel = &animation->channels[animation->channel_count];
-            if (g->failed || !read_channel(g, &channel_at, &samplers, channel)) continue;
+            const bool read = !g->failed && read_channel(g, &channel_at, &samplers, channel);
+            if (gn_gltf_spare(g, "not played") || !read) continue;
             const float *times_s = channel->times_s;
             if (times_s) last_s = fmaxf(last_s, times_s[channel->key_count - 1]);
             if (is_claimed(&claims, channel)) clip->on_by_default = false;

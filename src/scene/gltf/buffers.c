@@ -14,9 +14,11 @@ static bool load_buffer(struct gn_gltf *g, const struct gn_at *at, size_t index,
     if (g->failed) return false;
     if (uri && !gn_uri_fetch(g, uri, buffer, &err)) return gn_gltf_fail(g, &uri_at, "%s", err.text);
     if (!uri && index == 0) *buffer = g->file.bin; /* later ones without a URI are placeholders */
-    if (buffer->data && wanted > buffer->size)
-        return gn_gltf_fail(g, &length_at, "%" PRIu64 ", but the data has %zu bytes", wanted,
-                            buffer->size);
+    if (buffer->data && wanted > buffer->size) {
+        gn_gltf_fail(g, &length_at, "%" PRIu64 ", but the data has %zu bytes", wanted,
+                     buffer->size);
+        gn_gltf_spare(g, "read as far as it goes");
+    }
     return true;
 }
 
@@ -27,6 +29,7 @@ static bool read_view(struct gn_gltf *g, const struct gn_at *at, struct gn_buffe
     const uint64_t length = gn_at_uint(g, at, "byteLength", 0);
     view->stride = (size_t)gn_at_uint(g, at, "byteStride", 0);
     view->size = (size_t)length;
+    view->buffer = index;
     if (g->failed || !gn_gltf_decompress(g, at, view)) return false;
     if (view->data) return true;
     if (index < 0) return gn_gltf_fail(g, &buffer_at, "missing");
@@ -48,15 +51,16 @@ bool gn_gltf_buffers(struct gn_gltf *g) {
     if (!g->file.buffers) return false;
     g->file.buffer_count = count;
     for (size_t i = 0; i < count; i++) {
-        struct gn_at at = gn_at_item(g, &buffers, i);
-        if (g->failed || !load_buffer(g, &at, i, &g->file.buffers[i])) return false;
+        struct gn_at at = gn_at_element(&buffers, i);
+        if (!load_buffer(g, &at, i, &g->file.buffers[i]) && !gn_gltf_spare(g, "not read"))
+            return false;
     }
     struct gn_at views = gn_at_array(g, &root, "bufferViews");
     g->file.view_count = gn_at_size(&views);
     GN_NEW(g, &g->memory.load, g->file.views, g->file.view_count);
     for (size_t i = 0; i < g->file.view_count && !g->failed; i++) {
-        struct gn_at at = gn_at_item(g, &views, i);
-        if (!read_view(g, &at, &g->file.views[i])) return false;
+        struct gn_at at = gn_at_element(&views, i);
+        if (!read_view(g, &at, &g->file.views[i]) && !gn_gltf_spare(g, "not read")) return false;
     }
     return !g->failed;
 }

@@ -25,7 +25,7 @@ static void add_camera(struct gn_gltf *g, const struct gn_at *at, int32_t index,
     struct gn_camera camera = {.node = node};
     struct gn_at perspective = gn_at_object(g, at, "perspective");
     struct gn_at orthographic = gn_at_object(g, at, "orthographic");
-    const char *name = gn_at_text(g, at, "name");
+    const char *name = gn_at_name(g, at);
     gn_at_text(g, at, "type"); /* must be a string; the object that is there says the type */
     if (!perspective.json && !orthographic.json)
         gn_gltf_fail(g, at, "is neither perspective nor orthographic");
@@ -67,10 +67,11 @@ bool gn_gltf_cameras(struct gn_gltf *g) {
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
-        int32_t camera = gn_at_ref(g, &node, "camera", gn_at_size(&definitions), "cameras");
-        if (camera < 0) continue;
-        struct gn_at definition = gn_at_item(g, &definitions, (size_t)camera);
-        if (!g->failed) add_camera(g, &definition, camera, i);
+        int32_t camera = gn_at_spare_ref(g, &node, "camera", gn_at_size(&definitions), "cameras");
+        if (camera < 0 || g->failed) continue;
+        struct gn_at definition = gn_at_element(&definitions, (size_t)camera);
+        add_camera(g, &definition, camera, i);
+        gn_gltf_spare(g, "ignored");
     }
     return !g->failed;
 }

@@ -183,6 +183,23 @@ bool gn_gltf_uses(const struct gn_gltf *g, const char *extension) {
     return gn_gltf_requires(g, extension) || lists_extension(g, "extensionsUsed", extension);
 }
 
+/* What is no array of objects becomes one: others need not look. */
+static void check_arrays(struct gn_gltf *g) {
+    static const char *const names[] = {
+        "buffers", "bufferViews", "accessors", "images", "samplers", "textures",  "materials",
+        "meshes",  "skins",       "cameras",   "nodes",  "scenes",   "animations"};
+    struct gn_at root = gn_at_root(g);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        struct gn_at array = gn_at_array(g, &root, names[k]);
+        if (gn_gltf_spare(g, "ignored")) json_object_del(root.json, names[k]);
+        for (size_t i = 0; i < gn_at_size(&array) && !g->failed; i++) {
+            gn_at_item(g, &array, i);
+            if (gn_gltf_spare(g, "taken as empty"))
+                json_array_set_new(array.json, i, json_object());
+        }
+    }
+}
+
 bool gn_gltf_check_support(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), asset = gn_at_object(g, &root, "asset");
     const char *version = gn_at_text(g, &asset, "version");
@@ -208,5 +225,6 @@ bool gn_gltf_check_support(struct gn_gltf *g) {
         if (!gn_gltf_supports(name))
             return gn_gltf_fail(g, &at, "%.80s is not supported; %s", name, cure);
     }
+    if (!g->failed) check_arrays(g);
     return !g->failed;
 }

@@ -178,7 +178,9 @@ static void miss_basis(struct gn_gltf *g, int32_t index) {
     struct gn_at root = gn_at_root(g), images = gn_at_array(g, &root, "images");
     struct gn_at at = gn_at_item(g, &images, (size_t)index);
     g->is_missing[GN_MISSING_BASISU] = true;
-    if (gn_gltf_requires(g, "KHR_texture_basisu")) gn_gltf_fail(g, &at, "%s", GN_KTX2_BASIS);
+    if (!gn_gltf_requires(g, "KHR_texture_basisu")) return;
+    gn_gltf_fail(g, &at, "%s", GN_KTX2_BASIS);
+    g->failed_part = false; /* nothing is shown without it */
 }
 
 /* The index of the scene's image for one of the file, or DROPPED or BASIS. other: the image that
@@ -294,14 +296,15 @@ int32_t gn_gltf_texture(struct gn_gltf *g, int32_t index, enum gn_scale_kind kin
     struct gn_at root = gn_at_root(g), textures = gn_at_array(g, &root, "textures");
     struct gn_at samplers = gn_at_array(g, &root, "samplers");
     struct gn_at at = gn_at_item(g, &textures, (size_t)index);
-    int32_t sampler = gn_at_ref(g, &at, "sampler", gn_at_size(&samplers), "samplers");
+    int32_t sampler = gn_at_spare_ref(g, &at, "sampler", gn_at_size(&samplers), "samplers");
     const int32_t image = texture_image(g, &at, kind);
-    if (image < 0) return -1;
+    if (gn_gltf_spare(g, "shown without this texture") || image < 0) return -1;
     struct gn_at sampler_at =
-        sampler < 0 ? (struct gn_at){0} : gn_at_item(g, &samplers, (size_t)sampler);
+        sampler < 0 ? (struct gn_at){0} : gn_at_element(&samplers, (size_t)sampler);
     struct gn_texture *texture = &g->scene->pictures.textures[g->scene->pictures.texture_count];
     texture->image = (uint32_t)image;
     read_sampler(g, &sampler_at, texture);
+    gn_gltf_spare(g, "taken as trilinear and repeated");
     g->to_scene.texture[index] = (int32_t)g->scene->pictures.texture_count++;
     return g->to_scene.texture[index];
 }

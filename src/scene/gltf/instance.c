@@ -3,6 +3,7 @@
 #include "scene/private.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 struct copies {
@@ -32,6 +33,7 @@ static struct copies read_copies(struct gn_gltf *g, const struct gn_placed *plac
     struct gn_at node = gn_at_element(&nodes, placed->json);
     struct gn_at extension = gn_at_object(g, &node, "extensions.EXT_mesh_gpu_instancing");
     struct gn_at attributes = gn_at_object(g, &extension, "attributes");
+    gn_gltf_spare(g, "ignored");
     if (!extension.json || g->failed) return copies;
     copies.translation = read_attribute(g, &attributes, "TRANSLATION", 3, &copies);
     copies.rotation = read_attribute(g, &attributes, "ROTATION", 4, &copies);
@@ -51,6 +53,21 @@ static float *read_values(struct gn_gltf *g, const struct gn_accessor *a, size_t
     if (n == 4) copy.normalized = true; /* integer rotations are always normalised */
     gn_accessor_floats(&copy, n, out);
     return out;
+}
+
+/* One copy, or, where its numbers are no place, one without a size: false. */
+static bool put_copy(const float *t, const float *r, const float *s, mat4 out) {
+    const float turn = glm_vec4_norm((float *)r);
+    bool right = turn < 1e18f;
+    for (int k = 0; k < 3; k++) right &= fabsf(t[k]) < 1e18f && fabsf(s[k]) < 1e18f;
+    struct gn_node local = {.rotation = {0, 0, 0, 1}};
+    if (right) {
+        memcpy(local.translation, t, sizeof local.translation);
+        memcpy(local.scale, s, sizeof local.scale);
+        if (turn > 1e-6f) glm_vec4_scale((float *)r, 1 / turn, local.rotation);
+    }
+    gn_node_local(&local, out);
+    return right;
 }
 
 bool gn_gltf_instances(struct gn_gltf *g) {
@@ -78,15 +95,14 @@ bool gn_gltf_instances(struct gn_gltf *g) {
         float *t = read_values(g, copies.translation, copies.count, 3, (float[]){0, 0, 0});
         float *r = read_values(g, copies.rotation, copies.count, 4, (float[]){0, 0, 0, 1});
         float *s = read_values(g, copies.scale, copies.count, 3, (float[]){1, 1, 1});
-        for (size_t k = 0; k < copies.count && !g->failed; k++) {
-            struct gn_node local;
-            local.has_matrix = false;
-            memcpy(local.translation, t + 3 * k, sizeof local.translation);
-            memcpy(local.scale, s + 3 * k, sizeof local.scale);
-            memcpy(local.rotation, r + 4 * k, sizeof local.rotation);
-            glm_quat_normalize(local.rotation);
-            gn_node_local(&local, scene->instances[placed->first_instance + k]);
-        }
+        size_t lost = 0;
+        for (size_t k = 0; k < copies.count && !g->failed; k++)
+            lost += !put_copy(t + 3 * k, r + 4 * k, s + 3 * k,
+                              scene->instances[placed->first_instance + k]);
+        struct gn_at node = gn_at_element(&nodes, placed->json);
+        if (lost > 0)
+            gn_gltf_warn(g, &node, "%zu copies with numbers that are not finite are not shown",
+                         lost);
     }
     return !g->failed;
 }

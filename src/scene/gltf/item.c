@@ -90,5 +90,5 @@ bool gn_gltf_items(struct gn_gltf *g) {
                             "the scene is empty: %zu triangles have positions that are not finite, "
                             "and there are no others",
                             g->misplaced);
-    return gn_gltf_fail(g, &nodes, "the scene is empty: no node of it has a mesh with triangles");
+    return gn_gltf_fail_empty(g, &nodes, "no node of it has a mesh with triangles");
 }

@@ -1,5 +1,6 @@
 #include "scene/private.h"
 
+#include <assert.h>
 #include <float.h>
 #include <inttypes.h>
 #include <math.h>
@@ -167,10 +168,24 @@ const char *gn_at_text(struct gn_gltf *g, const struct gn_at *up, const char *pa
                                                                    : NULL;
 }
 
+/* A failure of this getter alone becomes a warning. */
+static void ignore_fault(struct gn_gltf *g, bool failed_before) {
+    if (!failed_before) gn_gltf_spare(g, "ignored");
+}
+
+const char *gn_at_name(struct gn_gltf *g, const struct gn_at *up) {
+    const bool failed = g->failed;
+    const char *name = gn_at_text(g, up, "name");
+    ignore_fault(g, failed);
+    return name;
+}
+
 bool gn_at_flag(struct gn_gltf *g, const struct gn_at *up, const char *path, bool fallback) {
+    const bool failed = g->failed;
     struct gn_at at = find_value(g, up, path);
-    return check_type(g, &at, json_is_boolean(at.json), "true or false") ? json_is_true(at.json)
-                                                                         : fallback;
+    const bool found = check_type(g, &at, json_is_boolean(at.json), "true or false");
+    ignore_fault(g, failed);
+    return found ? json_is_true(at.json) : fallback;
 }
 
 uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *path,
@@ -200,13 +215,28 @@ static bool read_float(struct gn_gltf *g, struct gn_at *at, float *out) {
 }
 
 float gn_at_float(struct gn_gltf *g, const struct gn_at *up, const char *path, float fallback) {
+    const bool failed = g->failed;
     struct gn_at at = find_value(g, up, path);
     float value = fallback;
-    return read_float(g, &at, &value) ? value : fallback;
+    const bool found = read_float(g, &at, &value);
+    ignore_fault(g, failed);
+    return found ? value : fallback;
 }
 
-bool gn_at_first_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, float *out) {
+void gn_at_first_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, float *out) {
+    const bool failed = g->failed;
     for (size_t i = 0; i < n && i < gn_at_size(array); i++) {
+        struct gn_at at = gn_at_element(array, i);
+        read_float(g, &at, &out[i]);
+        ignore_fault(g, failed);
+    }
+}
+
+static bool read_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, float *out) {
+    if (!array->json) return false;
+    if (gn_at_size(array) != n)
+        return gn_gltf_fail(g, array, "must have %zu numbers, has %zu", n, gn_at_size(array));
+    for (size_t i = 0; i < n; i++) {
         struct gn_at at = gn_at_element(array, i);
         if (!read_float(g, &at, &out[i])) return false;
     }
@@ -215,11 +245,14 @@ bool gn_at_first_floats(struct gn_gltf *g, const struct gn_at *array, size_t n, 
 
 bool gn_at_floats(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t n,
                   float *out) {
+    const bool failed = g->failed;
+    float read[16];
+    assert(n <= sizeof read / sizeof *read);
     struct gn_at array = gn_at_array(g, up, path);
-    if (!array.json) return false;
-    if (gn_at_size(&array) != n)
-        return gn_gltf_fail(g, &array, "must have %zu numbers, has %zu", n, gn_at_size(&array));
-    return gn_at_first_floats(g, &array, n, out);
+    const bool found = read_floats(g, &array, n, read);
+    ignore_fault(g, failed);
+    if (found) memcpy(out, read, n * sizeof *out);
+    return found;
 }
 
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what) {
@@ -239,4 +272,12 @@ int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *path, s
                   const char *what) {
     struct gn_at at = find_value(g, up, path);
     return gn_at_ref_here(g, &at, count, what);
+}
+
+int32_t gn_at_spare_ref(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t count,
+                        const char *what) {
+    const bool failed = g->failed;
+    const int32_t index = gn_at_ref(g, up, path, count, what);
+    ignore_fault(g, failed);
+    return index;
 }

@@ -77,20 +77,22 @@ bool gn_gltf_lights(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
     struct gn_at definitions = gn_at_array(g, &root, "extensions.KHR_lights_punctual.lights");
     struct gn_scene *scene = g->scene;
+    gn_gltf_spare(g, "ignored");
     GN_NEW(g, g->memory.scene, scene->lights, (uint64_t)scene->node_count + 1);
     for (uint32_t i = 0; i < scene->node_count && !g->failed; i++) {
         if (g->placed[i].bare) continue;
         struct gn_at node = gn_at_element(&nodes, g->placed[i].json);
-        int32_t index = gn_at_ref(g, &node, "extensions.KHR_lights_punctual.light",
-                                  gn_at_size(&definitions), "lights");
+        int32_t index = gn_at_spare_ref(g, &node, "extensions.KHR_lights_punctual.light",
+                                        gn_at_size(&definitions), "lights");
         if (index < 0) continue;
         struct gn_at definition = gn_at_item(g, &definitions, (size_t)index);
         struct gn_light light = {.node = i, .name = scene->nodes[i].name};
-        if (g->failed || !read_light(g, &definition, &light)) continue;
+        const bool read = !g->failed && read_light(g, &definition, &light);
+        if (gn_gltf_spare(g, "light ignored") || !read) continue;
         fill_record(g, index, &definition, &light);
         gn_extras_light(g, &definition, &light);
         gn_extras_light(g, &node, &light);
-        const char *own = gn_at_text(g, &definition, "name");
+        const char *own = gn_at_name(g, &definition);
         char number[32];
         snprintf(number, sizeof number, "light %u", scene->light_count);
         if (own && *own)

@@ -41,14 +41,15 @@ void gn_gltf_uv_sets(struct gn_gltf *g, int32_t material, uint64_t sets[GN_UV_SE
     sets[1] = 1;
     if (material < 0 || g->failed) return;
     struct gn_at root = gn_at_root(g), materials = gn_at_array(g, &root, "materials");
-    struct gn_at at = gn_at_item(g, &materials, (size_t)material);
+    struct gn_at at = gn_at_element(&materials, (size_t)material);
     struct gn_at gloss = gn_at_object(g, &at, GLOSSINESS);
+    gn_gltf_spare(g, "ignored");
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT && !g->failed; slot++) {
         const bool diffuse = gloss.json && slot == GN_TEXTURE_BASE;
         struct gn_at texture = gn_at_object(
             g, diffuse ? &gloss : &at, diffuse ? "diffuseTexture" : gn_texture_slots[slot].path);
-        if (!texture.json) continue;
-        const uint64_t set = read_uv(g, &texture, m, &transformed);
+        const uint64_t set = texture.json ? read_uv(g, &texture, m, &transformed) : 0;
+        if (gn_gltf_spare(g, "shown without this texture") || !texture.json) continue;
         bool known = false;
         for (int i = 0; i < count; i++) known |= found[i] == set;
         others |= set > 1;
@@ -72,10 +73,10 @@ static void read_texture(struct gn_gltf *g, const struct gn_at *at, bool used,
     const uint64_t uv_set = read_uv(g, at, ref->uv_from_uv, &transformed);
     const int place = find_uv_set(sets, uv_set);
     ref->texture = -1;
-    if (!at->json || g->failed || !used) return;
+    if (gn_gltf_spare(g, "shown without this texture") || !at->json || g->failed || !used) return;
     if (texture < 0) {
         struct gn_at missing = gn_at_any(at, "index");
-        gn_gltf_fail(g, &missing, "missing");
+        gn_gltf_warn(g, &missing, "missing; shown without this texture");
     } else if (place < 0) {
         gn_gltf_warn(g, at,
                      "texCoord %llu: the material reads sets %llu and %llu, and no third; shown "
@@ -215,7 +216,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
     static const char *const alphas[] = {
         [GN_ALPHA_OPAQUE] = "OPAQUE", [GN_ALPHA_MASK] = "MASK", [GN_ALPHA_BLEND] = "BLEND"};
     gn_material_init(m);
-    m->name = gn_gltf_strdup(g, gn_at_text(g, at, "name"));
+    m->name = gn_gltf_strdup(g, gn_at_name(g, at));
     m->double_sided = gn_at_flag(g, at, "doubleSided", false);
     m->unlit = gn_at_object(g, at, "extensions.KHR_materials_unlit").json != NULL;
     const char *alpha = gn_at_text(g, at, "alphaMode");
@@ -229,6 +230,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
     read_properties(g, at, index, used, m);
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         struct gn_at texture = gn_at_object(g, at, gn_texture_slots[slot].path);
+        gn_gltf_spare(g, "shown without this texture");
         const bool needless =
             gn_texture_slots[slot].shading >= GN_SHADING_LAYERS && !gn_material_reads(m, slot);
         read_texture(g, &texture, used && !needless, sets, kind_of(slot), &m->textures[slot]);
@@ -245,6 +247,7 @@ static void read_material(struct gn_gltf *g, const struct gn_at *at, size_t inde
         clamp(gn_at_float(g, at, "extensions.MOZ_lightmap.intensity", 1), 0, 1e9f);
     if (used) gn_extras_material(g, at, find_uv_set(sets, 1), m);
     limit_textures(g, at, m);
+    gn_gltf_spare(g, "ignored");
 }
 
 /* ---- tangents ---- */
@@ -261,12 +264,13 @@ int32_t gn_gltf_tangents(struct gn_gltf *g, int32_t material) {
     float m[6];
     bool transformed = false;
     struct gn_at above[3], at = normal_texture(g, above, material);
-    if (!at.json || gn_at_object(g, &above[2], "extensions.KHR_materials_unlit").json)
-        return GN_TANGENTS_NONE;
+    const bool lit = !gn_at_object(g, &above[2], "extensions.KHR_materials_unlit").json;
+    if (gn_gltf_spare(g, "ignored") || !at.json || !lit) return GN_TANGENTS_NONE;
     uint64_t sets[GN_UV_SETS];
     gn_gltf_uv_sets(g, material, sets);
     const int uv_set = find_uv_set(sets, read_uv(g, &at, m, &transformed));
-    if (g->failed || uv_set < 0) return GN_TANGENTS_NONE; /* read_texture() warns */
+    if (gn_gltf_spare(g, "shown without this texture") || g->failed || uv_set < 0)
+        return GN_TANGENTS_NONE; /* read_texture() warns */
     return transformed ? GN_TANGENTS_MATERIAL + material : GN_TANGENTS_UV + uv_set;
 }
 
@@ -294,7 +298,7 @@ bool gn_gltf_materials(struct gn_gltf *g) {
     if (g->failed) return false;
     for (uint32_t i = 0; i < scene->item_count; i++) used[scene->items[i].material] = true;
     for (size_t i = 0; i < g->file.material_count && !g->failed; i++) {
-        struct gn_at at = gn_at_item(g, &materials, i);
+        struct gn_at at = gn_at_element(&materials, i);
         uint64_t sets[GN_UV_SETS];
         gn_gltf_uv_sets(g, (int32_t)i, sets);
         if (!g->failed) read_material(g, &at, i, used[i], sets, &scene->materials[i]);

@@ -145,19 +145,18 @@ static void choose_tangents(struct gn_gltf *g, const struct gn_at *primitive,
 /* ---- primitives ---- */
 
 /* Counts the targets of a primitive: all of a mesh that have any have the same number. */
-static bool read_targets(const struct reader *reader, const struct gn_at *primitive,
+static void read_targets(const struct reader *reader, const struct gn_at *primitive,
                          struct gn_shape *shape) {
     struct gn_gltf *g = reader->g;
     struct gn_at targets = gn_at_array(g, primitive, "targets");
     const size_t count = gn_at_size(&targets);
     struct gn_mesh *mesh = &g->file.meshes[shape->mesh];
-    if (g->failed || count == 0) return !g->failed;
     if (count > GN_JOINTS_MAX)
-        return gn_gltf_fail(g, &targets, "%zu are more than %d morph targets", count,
-                            GN_JOINTS_MAX);
-    if (mesh->target_count > 0 && mesh->target_count != count)
-        return gn_gltf_fail(g, &targets, "%zu, but another primitive has %" PRIu32, count,
-                            mesh->target_count);
+        gn_gltf_fail(g, &targets, "%zu are more than %d morph targets", count, GN_JOINTS_MAX);
+    else if (mesh->target_count > 0 && mesh->target_count != count)
+        gn_gltf_fail(g, &targets, "%zu, but another primitive has %" PRIu32, count,
+                     mesh->target_count);
+    if (g->failed || count == 0) return;
     for (size_t i = 0; i < count; i++) {
         const char *name;
         json_t *accessor;
@@ -168,7 +167,6 @@ static bool read_targets(const struct reader *reader, const struct gn_at *primit
     }
     mesh->target_count = (uint32_t)count;
     shape->targets = (int32_t)reader->shape_count + 1;
-    return true;
 }
 
 /* Adds the primitive with that material; base: its mesh, number and targets. */
@@ -212,10 +210,12 @@ static void read_primitive(struct reader *reader, const struct gn_at *primitive,
     struct gn_shape shape = {.mesh = mesh, .primitive = index, .vertices = UINT32_MAX};
     struct gn_variant_material own[GN_VARIANTS_MAX + 1];
     const size_t count = gn_gltf_variant_materials(g, primitive, own);
-    if (g->failed || !read_targets(reader, primitive, &shape)) return;
+    read_targets(reader, primitive, &shape);
+    gn_gltf_spare(g, "shown without its morph targets");
     const uint64_t all = count > 1 ? UINT64_MAX >> (GN_VARIANTS_MAX - g->scene->variants.count) : 0;
     for (size_t i = 0; i < count; i++)
-        if (!add_primitive(reader, primitive, &shape, own[i].material, all & ~own[i].in)) return;
+        if (!add_primitive(reader, primitive, &shape, own[i].material, all & ~own[i].in)) break;
+    gn_gltf_spare(g, "not shown");
 }
 
 bool gn_gltf_meshes(struct gn_gltf *g) {
@@ -225,9 +225,11 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
     g->file.material_count = gn_at_size(&materials);
     size_t primitives = 0;
     for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
-        struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
+        struct gn_at mesh = gn_at_element(&meshes, i), list = gn_at_array(g, &mesh, "primitives");
+        gn_gltf_spare(g, "not shown");
         for (size_t k = 0; g->file.meshes[i].used && k < gn_at_size(&list) && !g->failed; k++) {
             struct gn_at primitive = gn_at_item(g, &list, k);
+            gn_gltf_spare(g, "not shown");
             primitives += gn_gltf_variant_most(g, &primitive);
         }
     }
@@ -249,10 +251,11 @@ bool gn_gltf_meshes(struct gn_gltf *g) {
     for (size_t i = 0; i < g->file.mesh_count && !g->failed; i++) {
         if (!g->file.meshes[i].used) continue;
         g->file.meshes[i].first_primitive = (uint32_t)g->primitives.count;
-        struct gn_at mesh = gn_at_item(g, &meshes, i), list = gn_at_array(g, &mesh, "primitives");
+        struct gn_at mesh = gn_at_element(&meshes, i), list = gn_at_any(&mesh, "primitives");
         for (size_t k = 0; k < gn_at_size(&list) && !g->failed; k++) {
-            struct gn_at primitive = gn_at_item(g, &list, k);
-            if (!g->failed) read_primitive(&reader, &primitive, (uint32_t)i, (uint32_t)k);
+            struct gn_at primitive = gn_at_element(&list, k);
+            if (json_is_object(primitive.json))
+                read_primitive(&reader, &primitive, (uint32_t)i, (uint32_t)k);
         }
     }
     g->scene->geometry_count = reader.shape_count;

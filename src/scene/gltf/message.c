@@ -43,10 +43,19 @@ bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format,
 
 bool gn_gltf_spare(struct gn_gltf *g, const char *without) {
     if (!g->failed || !g->failed_part) return false;
-    if (g->err) gn_warn(g->warnings, "%s; %s", g->err->text, without);
-    if (g->err) *g->err = (struct gn_err){0};
+    if (g->err) {
+        gn_warn(g->warnings, "%s; %s", g->err->text, without);
+        if (!g->spared.text[0]) g->spared = *g->err;
+        *g->err = (struct gn_err){0};
+    }
     g->failed = false;
     return true;
+}
+
+bool gn_gltf_fail_empty(struct gn_gltf *g, const struct gn_at *at, const char *why) {
+    if (g->failed || !g->spared.text[0]) return gn_gltf_fail(g, at, "the scene is empty: %s", why);
+    g->failed = g->failed_part = true;
+    return gn_fail(g->err, "%s", g->spared.text);
 }
 
 void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...) {

@@ -22,9 +22,12 @@ struct tree {
     size_t depth, count;
 };
 
+/* -1: none, which is named. */
 static int32_t child_at(struct tree *tree, const struct gn_at *children, size_t i) {
     struct gn_at at = gn_at_element(children, i);
-    return gn_at_ref_here(tree->g, &at, tree->count, "nodes");
+    const int32_t child = gn_at_ref_here(tree->g, &at, tree->count, "nodes");
+    gn_gltf_spare(tree->g, "ignored");
+    return child;
 }
 
 /* ---- parents and cycles ---- */
@@ -43,12 +46,12 @@ static bool read_tree(struct tree *tree) {
         g->to_scene.node[i] = -1;
     }
     for (size_t i = 0; i < tree->count && !g->failed; i++) {
-        struct gn_at node = gn_at_item(g, &tree->array, i);
+        struct gn_at node = gn_at_element(&tree->array, i);
         struct gn_at children = gn_at_array(g, &node, "children");
+        gn_gltf_spare(g, "ignored");
         for (size_t k = 0; k < gn_at_size(&children) && !g->failed; k++) {
-            struct gn_at at = gn_at_element(&children, k);
             int32_t child = child_at(tree, &children, k);
-            if (child < 0) return gn_gltf_fail(g, &at, "must be an index");
+            if (child < 0) continue;
             if (tree->sources[child].parent < 0)
                 tree->sources[child].parent = (int32_t)i;
             else
@@ -56,21 +59,24 @@ static bool read_tree(struct tree *tree) {
                              child, tree->sources[child].parent);
         }
     }
-    if (g->failed) return false;
+    return !g->failed;
+}
 
-    /* follow the parents of each node; mark 1: on the current path, 2: known to reach a root */
+/* Follows the parents of each node; mark 1: on the current path, 2: known to reach a root. The
+ * first node of a cycle becomes a root. */
+static void cut_cycles(struct tree *tree) {
     for (size_t i = 0; i < tree->count; i++) {
-        int32_t n = (int32_t)i;
-        for (; n >= 0 && tree->sources[n].mark == 0; n = tree->sources[n].parent)
-            tree->sources[n].mark = 1;
-        if (n >= 0 && tree->sources[n].mark == 1) {
-            struct gn_at at = gn_at_element(&tree->array, (size_t)n);
-            return gn_gltf_fail(g, &at, "is its own ancestor");
-        }
-        for (n = (int32_t)i; n >= 0 && tree->sources[n].mark == 1; n = tree->sources[n].parent)
+        int32_t first = (int32_t)i, n = first;
+        for (; first >= 0 && tree->sources[first].mark == 0; first = tree->sources[first].parent)
+            tree->sources[first].mark = 1;
+        const bool cycle = first >= 0 && tree->sources[first].mark == 1;
+        for (; n >= 0 && tree->sources[n].mark == 1; n = tree->sources[n].parent)
             tree->sources[n].mark = 2;
+        if (!cycle) continue;
+        struct gn_at at = gn_at_element(&tree->array, (size_t)first);
+        gn_gltf_warn(tree->g, &at, "is its own ancestor; shown as if it had no parent");
+        tree->sources[first].parent = -1;
     }
-    return true;
 }
 
 /* ---- walking the tree ---- */
@@ -84,7 +90,7 @@ static void push_node(struct tree *tree, int32_t node) {
 /* In reverse, so that the first child is popped first. */
 static void push_children(struct tree *tree, int32_t node) {
     struct gn_at at = gn_at_element(&tree->array, (size_t)node);
-    struct gn_at children = gn_at_array(tree->g, &at, "children");
+    struct gn_at children = gn_at_any(&at, "children");
     for (size_t i = gn_at_size(&children); i-- > 0;) {
         int32_t child = child_at(tree, &children, i);
         if (child >= 0 && tree->sources[child].parent == node) push_node(tree, child);
@@ -146,14 +152,14 @@ static void add_tree(struct tree *tree, int32_t listed, int32_t *roots) {
         struct gn_placed *placed = &g->placed[index];
         g->to_scene.node[source] = (int32_t)index;
         node->parent = parent < 0 ? -1 : g->to_scene.node[parent];
-        node->name = gn_gltf_strdup(g, gn_at_text(g, &at, "name"));
+        node->name = gn_gltf_strdup(g, gn_at_name(g, &at));
         read_transform(g, &at, node);
         placed->json = (size_t)source;
         placed->bare = !tree->sources[source].shown;
-        placed->mesh = gn_at_ref(g, &at, "mesh", g->file.mesh_count, "meshes");
+        placed->mesh = gn_at_spare_ref(g, &at, "mesh", g->file.mesh_count, "meshes");
         if (placed->bare) placed->mesh = -1;
         if (placed->mesh >= 0) g->file.meshes[placed->mesh].used = true;
-        placed->skin = gn_at_ref(g, &at, "skin", g->file.skin_count, "skins");
+        placed->skin = gn_at_spare_ref(g, &at, "skin", g->file.skin_count, "skins");
         placed->morph = -1;
         if (placed->mesh >= 0 && placed->skin >= 0) g->file.meshes[placed->mesh].skinned = true;
         gn_extras_node(g, &at, placed);
@@ -167,12 +173,7 @@ static size_t find_listed(struct tree *tree, const struct gn_at *list, bool all,
     size_t count = 0;
     for (size_t i = 0; !all && i < gn_at_size(list); i++) {
         int32_t node = child_at(tree, list, i);
-        if (node < 0) {
-            struct gn_at at = gn_at_element(list, i);
-            gn_gltf_fail(tree->g, &at, "must be an index");
-            return 0;
-        }
-        if (tree->sources[node].queued) continue;
+        if (node < 0 || tree->sources[node].queued) continue;
         tree->sources[node].queued = true;
         if (tree->sources[node].parent >= 0)
             gn_gltf_warn(tree->g, list, "node %d has a parent; shown in its place under it", node);
@@ -209,15 +210,17 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     GN_NEW(g, g->memory.scene, g->scene->nodes, tree.count + GN_ADDED_NODES);
     GN_NEW(g, &g->memory.load, g->placed, tree.count + GN_ADDED_NODES);
     if (g->failed || !read_tree(&tree)) return false;
+    cut_cycles(&tree);
 
     int32_t *listed = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *listed);
     int32_t *roots = gn_gltf_alloc(g, &g->memory.load, tree.count, sizeof *roots);
-    int32_t shown = gn_at_ref(g, &root, "scene", gn_at_size(&scenes), "scenes");
+    int32_t shown = gn_at_spare_ref(g, &root, "scene", gn_at_size(&scenes), "scenes");
     struct gn_at scene = {0};
-    if (gn_at_size(&scenes) > 0) scene = gn_at_item(g, &scenes, shown < 0 ? 0 : (size_t)shown);
+    if (gn_at_size(&scenes) > 0) scene = gn_at_element(&scenes, shown < 0 ? 0 : (size_t)shown);
     struct gn_at list = gn_at_array(g, &scene, "nodes");
+    gn_gltf_spare(g, "ignored");
     if (g->failed || !tree.sources || !listed || !roots) return false;
-    g->scene->name = gn_gltf_strdup(g, gn_at_text(g, &scene, "name"));
+    g->scene->name = gn_gltf_strdup(g, gn_at_name(g, &scene));
     gn_extras_scene(g, &scene);
     size_t count = find_listed(&tree, &list, scene.json == NULL, listed);
     for (size_t i = 0; i < tree.count; i++) {
@@ -226,7 +229,6 @@ bool gn_gltf_nodes(struct gn_gltf *g) {
     }
     for (size_t i = 0; i < count && !g->failed; i++) add_tree(&tree, listed[i], roots);
     if (!g->failed && g->scene->node_count == 0)
-        return gn_gltf_fail(g, scene.json ? &scene : &tree.array,
-                            "the scene is empty: there is no node");
+        return gn_gltf_fail_empty(g, scene.json ? &scene : &tree.array, "there is no node");
     return !g->failed;
 }

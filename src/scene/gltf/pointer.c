@@ -25,6 +25,7 @@ static size_t count_things(struct gn_gltf *g, enum gn_thing thing) {
     if (thing == GN_THING_MATERIAL) return g->file.material_count;
     struct gn_at list = gn_at_array(
         g, &root, thing == GN_THING_LIGHT ? "extensions.KHR_lights_punctual.lights" : "cameras");
+    gn_gltf_spare(g, "ignored");
     return gn_at_size(&list);
 }
 
@@ -77,7 +78,7 @@ static void scan_channel(struct gn_gltf *g, const struct gn_at *channel) {
 static void read_visibility(struct gn_gltf *g) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_array(g, &root, "nodes");
     for (size_t i = 0; i < g->file.node_count && !g->failed; i++) {
-        struct gn_at at = gn_at_item(g, &nodes, i);
+        struct gn_at at = gn_at_element(&nodes, i);
         const bool visible = gn_at_flag(g, &at, "extensions.KHR_node_visibility.visible", true);
         const uint32_t record = g->to_scene.record[GN_THING_NODE][i];
         const int32_t n = g->to_scene.node[i];
@@ -99,10 +100,12 @@ bool gn_gltf_pointers(struct gn_gltf *g) {
     g->to_scene.range_moves =
         gn_gltf_alloc(g, &g->memory.load, count_things(g, GN_THING_LIGHT), sizeof(bool));
     for (size_t i = 0; i < gn_at_size(&animations) && !g->failed; i++) {
-        struct gn_at at = gn_at_item(g, &animations, i), list = gn_at_array(g, &at, "channels");
+        struct gn_at at = gn_at_element(&animations, i), list = gn_at_array(g, &at, "channels");
+        gn_gltf_spare(g, "not played");
         for (size_t k = 0; k < gn_at_size(&list) && !g->failed; k++) {
             struct gn_at channel = gn_at_item(g, &list, k);
             scan_channel(g, &channel);
+            gn_gltf_spare(g, "not played");
         }
     }
     if (g->failed) return false;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+enum { UNSEEN = -1, DROPPED = -2 };
 enum { COPIES = 4 }; /* of its texels: the pose's, and three on the GPU */
 
 /* ---- strips -------------------------------------------------------------------------------- */
@@ -55,7 +56,7 @@ static bool read_bind_matrices(struct gn_gltf *g, const struct gn_at *skin, stru
     return true;
 }
 
-/* Adds a skin of the file to the scene. */
+/* Adds a skin of the file to the scene, whole or not at all. */
 static bool add_skin(struct gn_gltf *g, const struct gn_at *at) {
     struct gn_scene_deformation *d = &g->scene->deformation;
     struct gn_skin *skin = &d->skins[d->skin_count];
@@ -77,28 +78,31 @@ static bool add_skin(struct gn_gltf *g, const struct gn_at *at) {
     }
     if (outside)
         gn_gltf_warn(g, &list, "some are not in the scene that is shown; they do not move");
+    if (!read_bind_matrices(g, at, joints, (uint32_t)count) ||
+        !gn_gltf_strip(g, &list, (uint32_t)count, &skin->rows))
+        return false;
     d->joint_count += (uint32_t)count;
     d->skin_count++;
-    return read_bind_matrices(g, at, joints, (uint32_t)count) &&
-           gn_gltf_strip(g, &list, (uint32_t)count, &skin->rows);
+    return true;
 }
 
 static bool find_skin(struct gn_gltf *g, struct gn_placed *placed) {
     struct gn_at root = gn_at_root(g), skins = gn_at_array(g, &root, "skins");
     int32_t *known = &g->to_scene.skin[placed->skin];
-    if (*known < 0) {
-        struct gn_at at = gn_at_item(g, &skins, (size_t)placed->skin);
+    if (*known == UNSEEN) {
+        struct gn_at at = gn_at_element(&skins, (size_t)placed->skin);
         *known = (int32_t)g->scene->deformation.skin_count;
-        if (g->failed || !add_skin(g, &at)) return false;
+        add_skin(g, &at);
+        if (gn_gltf_spare(g, "shown without it")) *known = DROPPED;
     }
-    placed->skin = *known;
-    return true;
+    placed->skin = *known < 0 ? -1 : *known;
+    return !g->failed;
 }
 
 /* ---- weights ------------------------------------------------------------------------------- */
 
 /* Of the node, else of its mesh, else 0. */
-static bool read_weights(struct gn_gltf *g, const struct gn_placed *placed, uint32_t count,
+static void read_weights(struct gn_gltf *g, const struct gn_placed *placed, uint32_t count,
                          float *out) {
     struct gn_at root = gn_at_root(g), nodes = gn_at_any(&root, "nodes"),
                  meshes = gn_at_any(&root, "meshes");
@@ -106,12 +110,13 @@ static bool read_weights(struct gn_gltf *g, const struct gn_placed *placed, uint
                  mesh = gn_at_element(&meshes, (size_t)placed->mesh);
     struct gn_at list = gn_at_array(g, &node, "weights");
     if (!list.json) list = gn_at_array(g, &mesh, "weights");
-    if (g->failed || gn_at_size(&list) == 0) return !g->failed;
+    gn_gltf_spare(g, "ignored");
+    if (g->failed || gn_at_size(&list) == 0) return;
     const size_t given = gn_at_size(&list);
     if (given != count)
         gn_gltf_warn(g, &list, "%zu weights, but there are %" PRIu32 " morph targets; %s", given,
                      count, given > count ? "the others are ignored" : "0 for the others");
-    return gn_at_first_floats(g, &list, count, out);
+    gn_at_first_floats(g, &list, count, out);
 }
 
 static bool add_morph(struct gn_gltf *g, uint32_t node) {
@@ -122,9 +127,8 @@ static bool add_morph(struct gn_gltf *g, uint32_t node) {
     struct gn_at root = gn_at_root(g), meshes = gn_at_any(&root, "meshes");
     *morph =
         (struct gn_morphed){.node = node, .first_weight = d->weight_count, .weight_count = count};
-    if (!read_weights(g, placed, count, &d->weights[d->weight_count]) ||
-        !gn_gltf_strip(g, &meshes, count, &morph->list))
-        return false;
+    read_weights(g, placed, count, &d->weights[d->weight_count]);
+    if (g->failed || !gn_gltf_strip(g, &meshes, count, &morph->list)) return false;
     placed->morph = (int32_t)d->morph_count++;
     d->weight_count += count;
     return true;
@@ -150,7 +154,7 @@ static bool allocate_deformation(struct gn_gltf *g) {
     for (size_t i = 0; i < g->file.skin_count; i++) {
         struct gn_at at = gn_at_element(&skins, i), list = gn_at_any(&at, "joints");
         const size_t count = gn_at_size(&list);
-        g->to_scene.skin[i] = -1;
+        g->to_scene.skin[i] = UNSEEN;
         if (wanted[i]) joints += count < GN_JOINTS_MAX ? count : GN_JOINTS_MAX;
     }
     GN_NEW(g, g->memory.scene, d->skins, g->file.skin_count);
@@ -178,14 +182,19 @@ bool gn_gltf_deform_item(struct gn_gltf *g, struct gn_item *item) {
     struct gn_at at = gn_at_element(&nodes, placed->json);
     item->skin = geometry->joint_box_count > 0 ? placed->skin : -1;
     item->morph = geometry->targets ? placed->morph : -1;
+    if (item->skin >= 0) {
+        const struct gn_skin *skin = &g->scene->deformation.skins[item->skin];
+        const uint32_t last = geometry->joint_boxes[geometry->joint_box_count - 1].joint;
+        item->rows = skin->rows;
+        if (last >= skin->joint_count) {
+            gn_gltf_warn(g, &at,
+                         "a vertex of its mesh is of joint %" PRIu32 ", but its skin has %" PRIu32
+                         " joints; shown without it",
+                         last, skin->joint_count);
+            item->skin = -1;
+        }
+    }
     if (!gn_item_is_deformed(item)) return true;
     geometry->flat = false;
-    if (item->skin < 0) return gn_gltf_strip(g, &at, 1, &item->rows);
-    const struct gn_skin *skin = &g->scene->deformation.skins[item->skin];
-    const uint32_t last = geometry->joint_boxes[geometry->joint_box_count - 1].joint;
-    item->rows = skin->rows;
-    if (last < skin->joint_count) return true;
-    return gn_gltf_fail(
-        g, &at, "a vertex of its mesh is of joint %" PRIu32 ", but its skin has %" PRIu32 " joints",
-        last, skin->joint_count);
+    return item->skin >= 0 || gn_gltf_strip(g, &at, 1, &item->rows);
 }
