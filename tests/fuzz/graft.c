@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "scene/gltf/json_text.h"
 
 enum { HEADER = 12, CHUNK = 8 };
 
@@ -21,7 +22,7 @@ static const char valid_buffer[] =
 
 struct graft {
     json_t *root;
-    json_int_t scene_node, position, joints, weights, times, moves, image, mesh;
+    json_int_t scene_node, position, joints, weights, times, moves, zeros, image, mesh;
 };
 
 static json_t *parse(const char *text) {
@@ -114,11 +115,23 @@ static void use_as_attribute(struct graft *g, const char *semantic, json_int_t a
     show_mesh(g, add_triangle(g, json_pack("{s:{s:I}}", "attributes", semantic, accessor)));
 }
 
+/* Of copies of the valid triangle: any number will do. */
+static void use_as_places(struct graft *g, json_int_t accessor) {
+    show_mesh(g, g->mesh);
+    json_t *nodes = json_object_get(g->root, "nodes");
+    json_object_set_new(json_array_get(nodes, json_array_size(nodes) - 1), "extensions",
+                        json_pack("{s:{s:{s:I}}}", "EXT_mesh_gpu_instancing", "attributes",
+                                  "TRANSLATION", accessor));
+}
+
 static void use_accessor(struct graft *g, json_int_t i) {
     const json_t *a = json_array_get(json_object_get(g->root, "accessors"), (size_t)i);
     const char *type = json_string_value(json_object_get(a, "type"));
     const bool is_float = json_integer_value(json_object_get(a, "componentType")) == 5126;
-    if (!type || !strcmp(type, "VEC3"))
+    if (type && !strcmp(type, "VEC3") && is_float &&
+        json_integer_value(json_object_get(a, "count")) < 3)
+        use_as_places(g, i);
+    else if (!type || !strcmp(type, "VEC3"))
         use_as_attribute(g, "POSITION", i);
     else if (!strcmp(type, "VEC2"))
         use_as_attribute(g, "TEXCOORD_0", i);
@@ -136,16 +149,23 @@ static void use_accessor(struct graft *g, json_int_t i) {
             json_pack("{s:I,s:[I]}", "inverseBindMatrices", i, "joints", g->scene_node));
 }
 
-/* As positions, or indices where it is too small. */
+/* As positions; where it is too small, as the colour of one vertex, or indices by its stride. */
 static void use_view(struct graft *g, json_int_t i) {
     const json_t *view = json_array_get(json_object_get(g->root, "bufferViews"), (size_t)i);
     const json_int_t size = json_integer_value(json_object_get(view, "byteLength"));
-    const bool small = size < 36 || json_object_get(view, "byteStride");
-    add(g, "accessors",
-        json_pack("{s:I,s:i,s:I,s:s}", "bufferView", i, "componentType", small ? 5121 : 5126,
-                  "count",
-                  small ? (size > 3 && !json_object_get(view, "byteStride") ? 3 : 1) : size / 12,
-                  "type", small ? "SCALAR" : "VEC3"));
+    json_t *accessor;
+    if (json_object_get(view, "byteStride"))
+        accessor = json_pack("{s:I,s:i,s:i,s:s}", "bufferView", i, "componentType", 5121, "count",
+                             1, "type", "SCALAR");
+    else if (size >= 36)
+        accessor = json_pack("{s:I,s:i,s:I,s:s}", "bufferView", i, "componentType", 5126, "count",
+                             size / 12, "type", "VEC3");
+    else
+        accessor =
+            json_pack("{s:i,s:i,s:s,s:b,s:{s:i,s:{s:I,s:i},s:{s:I}}}", "componentType", 5121,
+                      "count", 3, "type", "VEC4", "normalized", 1, "sparse", "count", 1, "indices",
+                      "bufferView", g->zeros, "componentType", 5121, "values", "bufferView", i);
+    add(g, "accessors", accessor);
 }
 
 static void use_buffer(struct graft *g, json_int_t i) {
@@ -219,6 +239,7 @@ static void add_valid(struct graft *g) {
     g->position = add_part(g, buffer, 0, 36, 5126, 3, "VEC3");
     g->weights = add_part(g, buffer, 72, 48, 5126, 3, "VEC4");
     g->joints = add_part(g, buffer, 120, 12, 5121, 3, "VEC4");
+    g->zeros = count_of(g, "bufferViews") - 1; /* of the joints */
     g->times = add_part(g, buffer, 136, 8, 5126, 2, "SCALAR");
     g->moves = add_part(g, buffer, 144, 24, 5126, 2, "VEC3");
     g->scene_node = count_of(g, "nodes");
@@ -354,30 +375,31 @@ static void put_word(uint8_t *p, uint32_t value) {
     for (int i = 0; i < 4; i++) p[i] = (uint8_t)(value >> 8 * i);
 }
 
-static char *graft_text(const void *json, size_t size, bool has_chunk) {
+static char *graft_text(const char *json, size_t size, bool has_chunk) {
+    static const char bom[] = "\xef\xbb\xbf";
+    const size_t skip = size > 3 && memcmp(json, bom, 3) == 0 ? 3 : 0; /* it stays */
+    json += skip;
+    size -= skip;
     struct graft g = {.root = json_loadb(json, size, JSON_REJECT_DUPLICATES, NULL)};
+    char *replaced = g.root ? NULL : gn_json_text_replace(json, size); /* numbers over 1e308 */
+    if (replaced) g.root = json_loadb(replaced, size, JSON_REJECT_DUPLICATES, NULL);
+    free(replaced);
     if (!json_is_object(g.root)) {
         json_decref(g.root);
         return NULL;
     }
     if (!has_chunk) fill_buffers(&g);
     graft_all(&g);
-    char *text = json_dumps(g.root, JSON_COMPACT);
+    char *dumped = json_dumps(g.root, JSON_COMPACT);
+    char *text = gn_xalloc(strlen(dumped) + sizeof bom, 1);
+    sprintf(text, "%s%s", skip ? bom : "", dumped);
+    free(dumped);
     json_decref(g.root);
     return text;
 }
 
 struct gn_made gn_graft(const void *data, size_t size) {
     const uint8_t *bytes = data;
-    if (size > 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0) { /* it stays */
-        struct gn_made made = gn_graft(bytes + 3, size - 3);
-        if (!made.data) return made;
-        made.data = gn_xrealloc(made.data, made.size + 3, 1);
-        memmove(made.data + 3, made.data, made.size);
-        memcpy(made.data, bytes, 3);
-        made.size += 3;
-        return made;
-    }
     if (size < 4 || memcmp(bytes, "glTF", 4) != 0) {
         char *text = graft_text(data, size, false);
         return (struct gn_made){(uint8_t *)text, text ? strlen(text) : 0};
@@ -385,7 +407,7 @@ struct gn_made gn_graft(const void *data, size_t size) {
     const size_t at = HEADER + CHUNK;
     const uint32_t was = size > at ? word_at(bytes + HEADER) : 0;
     if (size < at || size - at < was) return (struct gn_made){NULL, 0};
-    char *text = graft_text(bytes + at, was, true);
+    char *text = graft_text((const char *)bytes + at, was, true);
     if (!text) return (struct gn_made){NULL, 0};
     const size_t length = strlen(text), rest = size - at - was,
                  padded = length > was ? was + (length - was + 3) / 4 * 4 : was;
