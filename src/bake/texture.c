@@ -4,32 +4,8 @@
 
 #include "bake/private.h"
 #include "core/encoding.h"
-#include "image/read.h"
-#include "image/scale.h"
+#include "image/format.h"
 #include "image/write.h"
-
-enum { PNG, JPEG, WEBP, KTX2, FORMAT_COUNT };
-static const struct format {
-    const char *magic;
-    size_t size, at;
-    const char *mime;
-} formats[FORMAT_COUNT] = {
-    [PNG] = {"\x89PNG\r\n\x1a\n", 8, 0, "image/png"},
-    [JPEG] = {"\xff\xd8\xff", 3, 0, "image/jpeg"},
-    [WEBP] = {"WEBP", 4, 8, "image/webp"},
-    [KTX2] = {"\xabKTX 20\xbb", 8, 0, "image/ktx2"},
-};
-
-static int format_of(const struct gn_bytes *bytes) {
-    int i = 0;
-    for (; i < FORMAT_COUNT; i++) {
-        const struct format *f = &formats[i];
-        if (bytes->data && bytes->size >= f->at + f->size &&
-            memcmp(bytes->data + f->at, f->magic, f->size) == 0)
-            break;
-    }
-    return i;
-}
 
 /* ---- what a picture shows ---- */
 
@@ -92,30 +68,12 @@ static bool read_image(struct gn_baker *b, const json_t *image, struct gn_bytes 
     return size > 0 || gn_fail(why, "has no data");
 }
 
-static bool size_of(int format, const struct gn_bytes *bytes, uint32_t px[2], struct gn_err *why) {
-    switch (format) {
-    case PNG: return gn_png_size(bytes->data, bytes->size, px, why);
-    case JPEG: return gn_jpeg_size(bytes->data, bytes->size, px, why);
-    case WEBP: return gn_webp_is_read() && gn_webp_size(bytes->data, bytes->size, px, why);
-    default: return false;
-    }
-}
-
-static bool decode(int format, const struct gn_bytes *bytes, const uint32_t px[2], uint8_t *rgba,
-                   struct gn_err *why) {
-    switch (format) {
-    case PNG: return gn_png_read(bytes->data, bytes->size, px, rgba, why);
-    case JPEG: return gn_jpeg_read(bytes->data, bytes->size, px, rgba, why);
-    default: return gn_webp_read(bytes->data, bytes->size, px, rgba, why);
-    }
-}
-
-static bool encode(int format, const struct gn_bytes *from, const uint8_t *rgba,
+static bool encode(enum gn_format format, const struct gn_bytes *from, const uint8_t *rgba,
                    const uint32_t px[2], struct gn_bytes *out, struct gn_err *why) {
     const int width = (int)px[0], height = (int)px[1];
     switch (format) {
-    case PNG: return gn_picture_encode_png_rgba(rgba, width, height, out, why);
-    case JPEG: return gn_picture_encode_jpeg(rgba, width, height, out, why);
+    case GN_FORMAT_PNG: return gn_picture_encode_png_rgba(rgba, width, height, out, why);
+    case GN_FORMAT_JPEG: return gn_picture_encode_jpeg(rgba, width, height, out, why);
     default:
         return gn_picture_encode_webp(rgba, width, height,
                                       gn_webp_is_lossless(from->data, from->size), out, why);
@@ -128,26 +86,29 @@ static uint32_t scaled_px(uint32_t px, uint32_t larger, uint32_t limit) {
 }
 
 /* Into out; false where it stays as it is, with the reason in why, or none if it is small. */
-static bool scale(struct gn_baker *b, int format, const struct gn_bytes *from, int kind,
+static bool scale(struct gn_baker *b, enum gn_format format, const struct gn_bytes *from, int kind,
                   struct gn_bytes *out, struct gn_err *why) {
     const struct gn_scene_limits limits = gn_scene_limits_or_default(b->opts->limits);
     const uint32_t limit = (uint32_t)b->opts->texture_limit_px;
-    uint32_t px[2] = {0}, to[2];
-    if (!size_of(format, from, px, why)) return false;
-    const uint32_t larger = px[0] > px[1] ? px[0] : px[1];
+    struct gn_picture_file file = {format, from->data, from->size, {0}};
+    uint32_t to[2], shrink = 0;
+    if (format >= GN_FORMAT_KTX2 || (format == GN_FORMAT_WEBP && !gn_webp_is_read()) ||
+        !gn_picture_size(&file, why))
+        return false;
+    const uint32_t larger = file.px[0] > file.px[1] ? file.px[0] : file.px[1];
     if (larger <= limit) return false;
-    const uint64_t texels = (uint64_t)px[0] * px[1];
-    if (texels > limits.texels)
-        return gn_fail(why, "%ux%u is over the limit texels=%llu", px[0], px[1],
+    if ((uint64_t)file.px[0] * file.px[1] > limits.texels)
+        return gn_fail(why, "%ux%u is over the limit texels=%llu", file.px[0], file.px[1],
                        (unsigned long long)limits.texels);
-    for (int k = 0; k < 2; k++) to[k] = scaled_px(px[k], larger, limit);
-    if (!gn_bake_has_room(b, 4 * (texels + (uint64_t)to[0] * to[1])))
-        return gn_fail(why, "exceeds the limit memory_mb");
-    uint8_t *rgba = gn_bake_alloc(b, texels, 4);
-    uint8_t *small = gn_bake_alloc(b, (size_t)to[0] * to[1], 4);
-    if (!small || !decode(format, from, px, rgba, why)) return false;
-    gn_picture_scale(rgba, px, kind, small, to);
-    return encode(format, from, small, to, out, why);
+    for (int k = 0; k < 2; k++) to[k] = scaled_px(file.px[k], larger, limit);
+    const uint64_t kept = UINT64_C(4) * to[0] * to[1];
+    while (!gn_bake_has_room(b, kept + gn_picture_work_bytes(&file, to, shrink)))
+        if (shrink == gn_picture_most_shrink(&file) || gn_shrunk_px(larger, shrink + 1) < limit ||
+            ++shrink > GN_SHRINK_MOST)
+            return gn_fail(why, "exceeds the limit memory_mb");
+    uint8_t *small = gn_bake_alloc(b, kept, 1);
+    return small && gn_picture_decode(&file, shrink, (enum gn_scale_kind)kind, small, to, why) &&
+           encode(format, from, small, to, out, why);
 }
 
 /* ---- images ---- */
@@ -172,7 +133,7 @@ static bool put_image(struct gn_baker *b, json_t *image, size_t index, int kind,
                       struct put_image *put, size_t put_count, struct gn_bytes *from) {
     struct gn_err why = {0};
     struct gn_bytes scaled = {0};
-    const int format = format_of(from);
+    const enum gn_format format = gn_format_of(from->data, from->size);
     int64_t view = find_equal(put, put_count, from, kind);
     if (view < 0) {
         const bool smaller = scale(b, format, from, kind, &scaled, &why);
@@ -189,8 +150,8 @@ static bool put_image(struct gn_baker *b, json_t *image, size_t index, int kind,
     }
     json_object_del(image, "uri");
     json_object_set_new(image, "bufferView", json_integer((json_int_t)view));
-    if (format != FORMAT_COUNT)
-        json_object_set_new(image, "mimeType", json_string(formats[format].mime));
+    if (format != GN_FORMAT_OTHER)
+        json_object_set_new(image, "mimeType", json_string(gn_format_mime(format)));
     return !b->failed;
 }
 
@@ -208,9 +169,10 @@ static bool put_images(struct gn_baker *b, json_t *images, const uint8_t *kinds,
         struct gn_err why = {0};
         struct gn_bytes *from = &put[i].from;
         if (!read_image(b, image, from, &owned[i], &why) ||
-            (format_of(from) == FORMAT_COUNT && !json_object_get(image, "mimeType"))) {
+            (gn_format_of(from->data, from->size) == GN_FORMAT_OTHER &&
+             !json_object_get(image, "mimeType"))) {
             gn_warn(b->warnings, "%s: images[%zu]: %s; kept as it is", b->opts->path, i,
-                    why.text[0] ? why.text : "neither PNG, JPEG, WebP nor KTX2");
+                    why.text[0] ? why.text : GN_FORMAT_OTHER_TEXT);
             json_object_del(image, "bufferView");
             continue;
         }

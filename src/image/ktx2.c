@@ -2,6 +2,7 @@
 #include "image/ktx2.h"
 
 #include <inttypes.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 #include <zlib.h>
@@ -161,12 +162,80 @@ uint64_t gn_ktx2_work_bytes(const uint8_t *data, size_t size, const uint32_t px[
     return WORK_BYTES;
 }
 
-bool gn_ktx2_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
-                  struct gn_err *err) {
+static bool open_pixels(const uint8_t *data, size_t size, struct gn_ktx2 *ktx2,
+                        struct gn_err *err) {
+    return gn_ktx2_open(data, size, ktx2, err) &&
+           (ktx2->packing == GN_PACKING_RGBA8 ||
+            gn_fail(err, "KTX2: %s goes to the GPU only", gn_packing_names[ktx2->packing]));
+}
+
+bool gn_ktx2_read(const uint8_t *data, size_t size, const uint32_t px[2], uint32_t shrink,
+                  uint8_t *rgba, struct gn_err *err) {
     struct gn_ktx2 ktx2;
-    (void)px;
-    if (!gn_ktx2_open(data, size, &ktx2, err)) return false;
-    if (ktx2.packing != GN_PACKING_RGBA8)
-        return gn_fail(err, "KTX2: %s goes to the GPU only", gn_packing_names[ktx2.packing]);
-    return read_level(data, &ktx2, 0, rgba, err);
+    (void)px, (void)shrink;
+    return open_pixels(data, size, &ktx2, err) && read_level(data, &ktx2, 0, rgba, err);
+}
+
+/* zstd has no rows: its level is unpacked as a whole. */
+uint64_t gn_ktx2_row_bytes(const uint8_t *data, size_t size, const uint32_t px[2]) {
+    struct gn_ktx2 ktx2;
+    const bool whole = gn_ktx2_open(data, size, &ktx2, NULL) && ktx2.scheme == SCHEME_ZSTD;
+    return WORK_BYTES + UINT64_C(8) * px[0] + (whole ? file_bytes(&ktx2, 0) : 0);
+}
+
+struct unpacker {
+    uint32_t scheme;
+    const uint8_t *next; /* the row, unless it is zlib's */
+    uint8_t *whole;      /* zstd's */
+    z_stream zlib;
+};
+
+static bool open_unpacker(struct unpacker *u, const uint8_t *data, const struct gn_ktx2 *k,
+                          struct gn_err *err) {
+    const uint8_t *entry = data + HEADER, *from = data + read_u64(entry);
+    const size_t size = (size_t)read_u64(entry + 8), bytes = (size_t)file_bytes(k, 0);
+    *u = (struct unpacker){.scheme = k->scheme, .next = from};
+    if (k->scheme == SCHEME_ZLIB) {
+        u->zlib.next_in = (Bytef *)(uintptr_t)from;
+        u->zlib.avail_in = size < UINT_MAX ? (uInt)size : UINT_MAX;
+        return inflateInit(&u->zlib) == Z_OK || gn_fail(err, "KTX2: zlib: out of memory");
+    }
+    if (k->scheme != SCHEME_ZSTD) return true;
+    u->next = u->whole = malloc(bytes);
+    return u->whole ? gn_zstd_unpack(from, size, u->whole, bytes, err)
+                    : gn_fail(err, "KTX2: out of memory");
+}
+
+static bool unpack_row(struct unpacker *u, uint8_t *out, size_t bytes, struct gn_err *err) {
+    if (u->scheme != SCHEME_ZLIB) {
+        memcpy(out, u->next, bytes);
+        u->next += bytes;
+        return true;
+    }
+    u->zlib.next_out = out;
+    u->zlib.avail_out = (uInt)bytes;
+    const int status = inflate(&u->zlib, Z_SYNC_FLUSH);
+    return ((status == Z_OK || status == Z_STREAM_END) && u->zlib.avail_out == 0) ||
+           gn_fail(err, "KTX2: zlib: damaged");
+}
+
+bool gn_ktx2_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_picture_row *row,
+                  void *user, struct gn_err *err) {
+    struct gn_ktx2 k;
+    struct unpacker unpacker;
+    if (!open_pixels(data, size, &k, err)) return false;
+    uint8_t *texels = malloc((size_t)4 * px[0]);
+    bool done =
+        texels ? open_unpacker(&unpacker, data, &k, err) : gn_fail(err, "KTX2: out of memory");
+    const bool opened = done;
+    for (uint32_t y = 0; done && y < px[1]; y++) {
+        done = unpack_row(&unpacker, texels, (size_t)k.channels * px[0], err);
+        if (!done) break;
+        if (k.channels < 4) widen_texels(texels, px[0], k.channels);
+        row(user, texels);
+    }
+    if (opened && k.scheme == SCHEME_ZLIB) inflateEnd(&unpacker.zlib);
+    if (texels) free(unpacker.whole);
+    free(texels);
+    return done;
 }

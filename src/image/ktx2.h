@@ -5,6 +5,7 @@
 
 #include "core/err.h"
 #include "image/packing.h"
+#include "image/read.h"
 
 #define GN_KTX2_BASIS                                                                              \
     "KTX2 of Basis Universal is not read: export the scene with PNG or JPEG pictures; "            \
@@ -28,11 +29,14 @@ bool gn_ktx2_read_levels(const uint8_t *data, size_t size, const struct gn_ktx2 
 /* Bytes that it takes beside them. */
 uint64_t gn_ktx2_level_work_bytes(const struct gn_ktx2 *ktx2);
 
-/* As in read.h: the largest level alone, which is not compressed into blocks. */
+/* As in read.h: the largest level alone, which is not compressed into blocks; shrink is 0. */
 bool gn_ktx2_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
 uint64_t gn_ktx2_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]);
-bool gn_ktx2_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
-                  struct gn_err *err);
+bool gn_ktx2_read(const uint8_t *data, size_t size, const uint32_t px[2], uint32_t shrink,
+                  uint8_t *rgba, struct gn_err *err);
+uint64_t gn_ktx2_row_bytes(const uint8_t *data, size_t size, const uint32_t px[2]);
+bool gn_ktx2_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_picture_row *row,
+                  void *user, struct gn_err *err);
 
 /* Unpacks exactly out_size bytes, or fails; false everywhere in a build without libzstd. */
 bool gn_zstd_is_built(void);

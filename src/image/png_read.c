@@ -41,11 +41,14 @@ bool gn_png_has_alpha(const uint8_t *data, size_t size) {
     return data[COLOR_TYPE] & WITH_ALPHA;
 }
 
+bool gn_png_is_interlaced(const uint8_t *data) { return data[IHDR_END - 1] != 0; }
+
+/* libpng has two rows of up to 8 bytes a texel, and the tables of zlib. */
+static uint64_t library_bytes(const uint32_t px[2]) { return UINT64_C(16) * px[0] + (1 << 16); }
+
 uint64_t gn_png_work_bytes(const uint8_t *data, size_t size, const uint32_t px[2]) {
-    (void)data;
-    (void)size;
-    return (uint64_t)px[1] * sizeof(png_bytep) +
-           UINT64_C(16) * px[0]; /* rows; two of 8 bytes a texel */
+    (void)data, (void)size;
+    return (uint64_t)px[1] * sizeof(png_bytep) + library_bytes(px);
 }
 
 struct reader {
@@ -55,6 +58,7 @@ struct reader {
     png_structp png;
     png_infop info;
     png_bytep *rows;
+    png_bytep row;
     struct gn_err *err;
 };
 
@@ -77,10 +81,10 @@ static void on_warning(png_structp png, png_const_charp message) {
     (void)message;
 }
 
-/* texel_bytes: 4 or 8. */
-static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgba,
-                       size_t texel_bytes) {
-    if (setjmp(reader->leave)) return false;
+/* Everything before the first row. texel_bytes: 4 or 8; filled: each pass of an interlaced picture
+ * has all rows and columns. */
+static void begin_png(struct reader *reader, const uint32_t px[2], size_t texel_bytes,
+                      bool filled) {
     png_set_read_fn(reader->png, reader, read_bytes);
     png_set_user_limits(reader->png, px[0], px[1]);
     png_set_chunk_cache_max(reader->png, 64);
@@ -96,35 +100,96 @@ static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgb
     }
     png_set_gray_to_rgb(reader->png);
     png_set_add_alpha(reader->png, texel_bytes == 8 ? 65535 : 255, PNG_FILLER_AFTER);
-    png_set_interlace_handling(reader->png);
+    if (filled) png_set_interlace_handling(reader->png);
     png_read_update_info(reader->png, reader->info);
     if (png_get_rowbytes(reader->png, reader->info) != texel_bytes * px[0] ||
         png_get_image_height(reader->png, reader->info) != px[1])
         png_error(reader->png, "size differs from its header");
+}
+
+static bool decode_png(struct reader *reader, const uint32_t px[2], uint8_t *rgba,
+                       size_t texel_bytes) {
+    if (setjmp(reader->leave)) return false;
+    begin_png(reader, px, texel_bytes, true);
     reader->rows = png_malloc(reader->png, px[1] * sizeof *reader->rows);
     for (uint32_t y = 0; y < px[1]; y++) reader->rows[y] = rgba + texel_bytes * px[0] * y;
     png_read_image(reader->png, reader->rows);
     return true;
 }
 
-static bool read_png(const uint8_t *data, size_t size, const uint32_t px[2], void *rgba,
-                     size_t texel_bytes, struct gn_err *err) {
-    struct reader reader = {.data = data, .left = size, .err = err};
-    reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_error, on_warning);
-    reader.info = reader.png ? png_create_info_struct(reader.png) : NULL;
-    bool done = reader.info ? decode_png(&reader, px, rgba, texel_bytes)
-                            : gn_fail(err, "PNG: out of memory");
-    if (reader.rows) png_free(reader.png, reader.rows);
-    if (reader.png) png_destroy_read_struct(&reader.png, reader.info ? &reader.info : NULL, NULL);
+static void begin_rows(struct reader *reader, const uint32_t px[2]) {
+    begin_png(reader, px, 4, false);
+    reader->row = png_malloc(reader->png, 4 * (size_t)px[0]);
+}
+
+/* The passes of Adam7 whose pixels lie on a grid of 1 << shrink: the first, and two for each
+ * halving of the grid's step from 8 (PNG specification, 8.2). */
+static bool decode_passes(struct reader *reader, const uint32_t px[2], uint32_t shrink,
+                          uint8_t *rgba) {
+    if (setjmp(reader->leave)) return false;
+    begin_rows(reader, px);
+    const size_t width = gn_shrunk_px(px[0], shrink);
+    for (int pass = 0; pass < PNG_INTERLACE_ADAM7_PASSES - 2 * (int)shrink; pass++) {
+        const uint32_t columns = PNG_PASS_COLS(px[0], pass), rows = PNG_PASS_ROWS(px[1], pass);
+        for (uint32_t y = 0; y < rows && columns > 0; y++) {
+            uint8_t *out = rgba + 4 * width * (PNG_ROW_FROM_PASS_ROW(y, pass) >> shrink);
+            png_read_row(reader->png, reader->row, NULL);
+            for (uint32_t x = 0; x < columns; x++)
+                memcpy(out + 4 * ((size_t)PNG_COL_FROM_PASS_COL(x, pass) >> shrink),
+                       reader->row + 4 * (size_t)x, 4);
+        }
+    }
+    return true;
+}
+
+static bool decode_rows(struct reader *reader, const uint32_t px[2], gn_picture_row *row,
+                        void *user) {
+    if (setjmp(reader->leave)) return false;
+    begin_rows(reader, px);
+    for (uint32_t y = 0; y < px[1]; y++) {
+        png_read_row(reader->png, reader->row, NULL);
+        row(user, reader->row);
+    }
+    return true;
+}
+
+static bool open_png(struct reader *reader, const uint8_t *data, size_t size, struct gn_err *err) {
+    *reader = (struct reader){.data = data, .left = size, .err = err};
+    reader->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, reader, on_error, on_warning);
+    reader->info = reader->png ? png_create_info_struct(reader->png) : NULL;
+    return reader->info || gn_fail(err, "PNG: out of memory");
+}
+
+static void close_png(struct reader *reader) {
+    if (!reader->png) return;
+    png_free(reader->png, reader->rows);
+    png_free(reader->png, reader->row);
+    png_destroy_read_struct(&reader->png, reader->info ? &reader->info : NULL, NULL);
+}
+
+bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint32_t shrink,
+                 uint8_t *rgba, struct gn_err *err) {
+    struct reader reader;
+    const bool done =
+        open_png(&reader, data, size, err) &&
+        (shrink ? decode_passes(&reader, px, shrink, rgba) : decode_png(&reader, px, rgba, 4));
+    close_png(&reader);
     return done;
 }
 
-bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
-                 struct gn_err *err) {
-    return read_png(data, size, px, rgba, 4, err);
+bool gn_png_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_picture_row *row,
+                 void *user, struct gn_err *err) {
+    struct reader reader;
+    const bool done = open_png(&reader, data, size, err) && decode_rows(&reader, px, row, user);
+    close_png(&reader);
+    return done;
 }
 
 bool gn_png_read_16(const uint8_t *data, size_t size, const uint32_t px[2], uint16_t *rgba,
                     struct gn_err *err) {
-    return read_png(data, size, px, rgba, 8, err);
+    struct reader reader;
+    const bool done =
+        open_png(&reader, data, size, err) && decode_png(&reader, px, (uint8_t *)rgba, 8);
+    close_png(&reader);
+    return done;
 }

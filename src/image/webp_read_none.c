@@ -13,8 +13,8 @@ uint64_t gn_webp_work_bytes(const uint8_t *data, size_t size, const uint32_t px[
     return 0;
 }
 
-bool gn_webp_read(const uint8_t *data, size_t size, const uint32_t px[2], uint8_t *rgba,
-                  struct gn_err *err) {
-    (void)rgba;
+bool gn_webp_read(const uint8_t *data, size_t size, const uint32_t px[2], uint32_t shrink,
+                  uint8_t *rgba, struct gn_err *err) {
+    (void)rgba, (void)shrink;
     return gn_webp_size(data, size, (uint32_t[2]){px[0], px[1]}, err);
 }

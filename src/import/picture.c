@@ -36,7 +36,7 @@ static bool read_pixels(const struct gn_bytes *picture, struct pixels *out) {
     out->height_px = px[1];
     out->has_alpha = is_png && gn_png_has_alpha(data, picture->size);
     out->rgba = gn_import_alloc(4 * (size_t)px[0] * px[1]);
-    if ((is_png ? gn_png_read : gn_jpeg_read)(data, picture->size, px, out->rgba, &unused))
+    if ((is_png ? gn_png_read : gn_jpeg_read)(data, picture->size, px, 0, out->rgba, &unused))
         return true;
     free(out->rgba);
     *out = (struct pixels){0};

@@ -143,10 +143,13 @@ struct gn_gltf_primitives { /* of the meshes in use, mesh by mesh, and what they
     size_t count, vertices_count;
 };
 /* What a picture takes: pixels and bytes that stay, those of decoding it, those on the GPU. */
+enum { GN_HALVINGS = 3 }; /* further ones take no less memory */
 struct gn_picture_need {
     uint32_t px[2];
     uint64_t kept, decoding, on_gpu;
-    uint64_t halved; /* bytes of decoding it if it is halved as well; 0: it cannot be */
+    uint64_t halved[GN_HALVINGS]; /* the least of decoding it, by halvings from 1 on; 0: it has no
+                                     smaller size */
+    uint64_t work;                /* the time of decoding it, as texels */
 };
 struct gn_picture {  /* the source of images */
     uint64_t key[3]; /* a file: 1, device, inode; a part of a buffer: 2, address, size */
@@ -201,7 +204,7 @@ struct gn_gltf {
     size_t misplaced; /* triangles that are not shown: positions that are not finite */
     uint64_t key_total;
     uint64_t decoded_bytes;  /* of the pictures in memory */
-    uint64_t decode_work;    /* of the pictures in memory; see decode_image() */
+    uint64_t decode_work;    /* of the pictures in memory; as gn_gltf_picture_work has it */
     uint64_t damaged_work;   /* of those whose decoding failed */
     uint64_t closed_corners; /* of the geometries so far, tested for being closed or not */
     struct gn_scene *scene;
@@ -397,9 +400,11 @@ struct gn_texture_ref gn_gltf_tangents_uv(struct gn_gltf *g, int32_t tangents);
 int32_t gn_gltf_texture(struct gn_gltf *g, int32_t texture, enum gn_scale_kind kind);
 /* gltf/memory.c: how often sides must be halved to be within most_px; 0: that is no limit. */
 uint32_t gn_gltf_halvings(const uint32_t px[2], uint32_t most_px);
-/* Fails where the picture is over a limit. whole: the same at its own size. Where pictures would
- * fit if they were halved, all that follow fail, too: what they need is noted, and the scene is
- * loaded again with smaller ones (gn_gltf_fit_pictures). */
+/* Bytes that a picture may take beside what stays of it on the GPU. */
+uint64_t gn_gltf_picture_room(const struct gn_gltf *g);
+/* Fails where the picture is over a limit. whole: the same at its largest size, to which halvings
+ * are counted. Where pictures would fit if they were halved, all that follow fail, too: what they
+ * need is noted, and the scene is loaded again with smaller ones (gn_gltf_fit_pictures). */
 bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
                           const struct gn_picture_need *whole, struct gn_err *err);
 /* At the end of a load: the longest side with which all pictures are within the limits; 0: they are
@@ -408,8 +413,8 @@ uint32_t gn_gltf_fit_pictures(const struct gn_gltf *g);
 /* They are over that limit. False: they have been loaded again for that often enough. */
 bool gn_gltf_halve_pictures(struct gn_gltf *g, const char *limit, uint64_t mb);
 
-/* The time of decoding it, as texels. */
-uint64_t gn_gltf_picture_work(const struct gn_picture_need *need);
+/* The time of decoding one of that size, as texels. */
+uint64_t gn_gltf_picture_work(const uint32_t px[2]);
 /* Counts a picture that was decoded. */
 void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need);
 

@@ -1,9 +1,11 @@
 #include "fuzz/bomb_pictures.h"
 
 #include <png.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <turbojpeg.h>
+#include <zlib.h>
 
 #include "core/arena.h"
 
@@ -39,6 +41,7 @@ struct gn_made gn_bomb_png_make(const struct gn_bomb_png *p) {
     }
     png_write_info(png, info);
     uint8_t *row = gn_xalloc(((size_t)p->width_px * (size_t)bits + 7) / 8, 1);
+    for (uint32_t x = 0; p->ramp && x < p->width_px; x++) row[x] = (uint8_t)x;
     const int passes = png_set_interlace_handling(png);
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < p->height_px; y++) png_write_row(png, row);
@@ -118,5 +121,74 @@ struct gn_made gn_bomb_jpeg_progressive(int width, int height, int sampling) {
     made.size = size;
     memcpy(made.data, data, size);
     tjFree(data);
+    return made;
+}
+
+struct gn_made gn_bomb_jpeg_arithmetic(int width, int height, int components, bool progressive) {
+    struct gn_made made = {0};
+    char *text;
+    FILE *file = open_memstream(&text, &made.size);
+    fwrite((uint8_t[]){0xff, 0xd8, 0xff, 0xdb, 0, 67, 0}, 7, 1, file);
+    for (int i = 0; i < 64; i++) fputc(1, file); /* the table of factors */
+    fwrite((uint8_t[]){0xff, progressive ? 0xca : 0xc9, 0, (uint8_t)(8 + 3 * components), 8,
+                       (uint8_t)(height >> 8), (uint8_t)height, (uint8_t)(width >> 8),
+                       (uint8_t)width, (uint8_t)components},
+           10, 1, file);
+    for (int i = 1; i <= components; i++) fwrite((uint8_t[]){(uint8_t)i, 0x11, 0}, 3, 1, file);
+    fwrite((uint8_t[]){0xff, 0xda, 0, (uint8_t)(6 + 2 * components), (uint8_t)components}, 5, 1,
+           file);
+    for (int i = 1; i <= components; i++) fwrite((uint8_t[]){(uint8_t)i, 0}, 2, 1, file);
+    fwrite((uint8_t[]){0, progressive ? 0 : 63, 0, 0xff, 0xd9}, 5, 1, file);
+    fclose(file);
+    made.data = (uint8_t *)text;
+    return made;
+}
+
+/* ---- WebP ---- */
+
+/* The bits of VP8L: sides, alpha, version; no transform, no cache, one group of codes; then five
+ * codes of one symbol of 8 bits each. */
+struct gn_made gn_bomb_webp(int width, int height) {
+    const uint32_t head[][2] = {{(uint32_t)width - 1, 14},
+                                {(uint32_t)height - 1, 14},
+                                {1, 1},
+                                {0, 3},
+                                {0, 1},
+                                {0, 1},
+                                {0, 1}};
+    uint8_t bits[96] = {0}, data[20] = {0x2f};
+    int count = 0;
+    for (size_t i = 0; i < sizeof head / sizeof *head; i++)
+        for (uint32_t k = 0; k < head[i][1]; k++) bits[count++] = head[i][0] >> k & 1;
+    for (int symbol = 0; symbol < 5; symbol++, count += 8) {
+        bits[count++] = 1; /* simple */
+        bits[count++] = 0; /* of one symbol */
+        bits[count++] = 1; /* of 8 bits, which are 0 */
+    }
+    for (int i = 0; i < count; i++) data[1 + i / 8] |= (uint8_t)(bits[i] << i % 8);
+    struct gn_made made = {.data = gn_xalloc(20 + sizeof data, 1), .size = 20 + sizeof data};
+    memcpy(made.data, "RIFF\x20\0\0\0WEBPVP8L\x14\0\0\0", 20);
+    memcpy(made.data + 20, data, sizeof data);
+    return made;
+}
+
+/* ---- KTX2 ---- */
+
+struct gn_made gn_bomb_ktx2(int width, int height, int channels) {
+    static const uint32_t formats[] = {9, 16, 23, 37}; /* of Vulkan */
+    enum { HEADER = 80, START = HEADER + 24, ZLIB = 3 };
+    const uint64_t bytes = (uint64_t)width * (uint64_t)height * (uint64_t)channels;
+    uint8_t *zeros = gn_xalloc(bytes, 1);
+    uLongf size = compressBound(bytes);
+    struct gn_made made = {.data = gn_xalloc(START + size, 1)};
+    compress2(made.data + START, &size, zeros, bytes, 1);
+    free(zeros);
+    made.size = START + size;
+    const uint32_t head[] = {
+        formats[channels - 1], 1, (uint32_t)width, (uint32_t)height, 0, 0, 1, 1, ZLIB};
+    const uint64_t level[] = {START, size, bytes};
+    memcpy(made.data, "\xabKTX 20\xbb\r\n\x1a\n", 12);
+    memcpy(made.data + 12, head, sizeof head);
+    memcpy(made.data + HEADER, level, sizeof level);
     return made;
 }

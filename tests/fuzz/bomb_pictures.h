@@ -11,6 +11,7 @@ struct gn_bomb_png {
     int depth;
     bool interlaced;
     size_t text_size;
+    bool ramp; /* instead of one value: the column's number, of 8 bits */
 };
 struct gn_made gn_bomb_png_make(const struct gn_bomb_png *png);
 
@@ -19,5 +20,11 @@ struct gn_made gn_bomb_png_make(const struct gn_bomb_png *png);
 struct gn_made gn_bomb_jpeg_scans(int side, int scans);
 /* A progressive JPEG of one colour; samplings: an enum TJSAMP. */
 struct gn_made gn_bomb_jpeg_progressive(int width, int height, int sampling);
+
+/* Of one value in all texels, in a few bytes: JPEG whose arithmetic-coded data ends at once,
+ * lossless WebP whose symbols take no bits, KTX2 of zlib. components: 1 or 3; of KTX2 1 to 4. */
+struct gn_made gn_bomb_jpeg_arithmetic(int width, int height, int components, bool progressive);
+struct gn_made gn_bomb_webp(int width, int height);
+struct gn_made gn_bomb_ktx2(int width, int height, int channels);
 
 #endif

@@ -370,7 +370,7 @@ static void test_only_pictures_over_the_limit_change(void **state) {
     assert_true(gn_png_size(data, size, px, NULL));
     assert_true(px[0] == 16 && px[1] == 8);
     uint8_t out[16 * 8 * 4];
-    assert_true(gn_png_read(data, size, px, out, NULL));
+    assert_true(gn_png_read(data, size, px, 0, out, NULL));
     assert_memory_equal(out, rgba, sizeof out);
     gn_document_view(b.document, (size_t)number(item(&b, "images", 1), "bufferView"), &data, &size,
                      &stride);
@@ -381,24 +381,32 @@ static void test_only_pictures_over_the_limit_change(void **state) {
     finish(&b);
 }
 
+static void scale_row(const uint8_t *rgba, uint32_t from, enum gn_scale_kind kind, uint8_t *out,
+                      uint32_t to) {
+    struct gn_scaler scaler;
+    assert_true(gn_scaler_init(&scaler, (uint32_t[]){from, 1}, kind, out, (uint32_t[]){to, 1}));
+    gn_scaler_row(&scaler, rgba);
+    gn_scaler_finish(&scaler);
+}
+
 static void test_scaled_colours_are_averaged_in_linear_light(void **state) {
     (void)state;
     const uint8_t two[] = {0, 255, 128, 0, 255, 255, 128, 255};
     uint8_t one[4];
-    gn_picture_scale(two, (uint32_t[]){2, 1}, GN_SCALE_COLOR, one, (uint32_t[]){1, 1});
+    scale_row(two, 2, GN_SCALE_COLOR, one, 1);
     assert_int_equal(one[0], 188); /* half of white's light */
     assert_true(one[1] == 255 && one[2] == 128 && one[3] == 128);
-    gn_picture_scale(two, (uint32_t[]){2, 1}, GN_SCALE_DATA, one, (uint32_t[]){1, 1});
+    scale_row(two, 2, GN_SCALE_DATA, one, 1);
     assert_int_equal(one[0], 128);
     /* x and y directions: their mean has length 1 */
     const uint8_t normals[] = {255, 128, 128, 255, 128, 255, 128, 255};
-    gn_picture_scale(normals, (uint32_t[]){2, 1}, GN_SCALE_NORMALS, one, (uint32_t[]){1, 1});
+    scale_row(normals, 2, GN_SCALE_NORMALS, one, 1);
     assert_int_equal(one[0], 218); /* 127.5 + 127.5 sqrt(.5) */
     assert_int_equal(one[1], 218);
     /* 3 to 2: each is one and a half */
     const uint8_t three[] = {0, 0, 0, 255, 90, 90, 90, 255, 180, 180, 180, 255};
     uint8_t pair[8];
-    gn_picture_scale(three, (uint32_t[]){3, 1}, GN_SCALE_DATA, pair, (uint32_t[]){2, 1});
+    scale_row(three, 3, GN_SCALE_DATA, pair, 2);
     assert_true(pair[0] == 30 && pair[4] == 150);
 }
 

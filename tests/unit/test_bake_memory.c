@@ -1,8 +1,10 @@
 /* gnomon bake holds no more than memory_mb, whatever a small file asks for. */
 #include <stdlib.h>
 #include <string.h>
+#include <turbojpeg.h>
 
 #include "bake/bake.h"
+#include "fuzz/bomb_pictures.h"
 #include "unit/check.h"
 #include "unit/gltf_maker.h"
 
@@ -58,25 +60,29 @@ static void test_data_that_is_not_in_the_file_counts(void **state) {
     if (!bake_within(&m, 64, &b)) fail_msg("%s", b.err.text);
 }
 
-/* 1024 x 1024 texels are 4 MB. */
+/* 1024 x 1024 texels are 4 MB, of which PNG has a row at a time and a progressive JPEG 6 MB of
+ * coefficients. */
 static void test_a_picture_that_does_not_fit_stays_as_it_is(void **state) {
     (void)state;
-    struct gn_maker m;
-    struct baked b;
     uint8_t *rgba = calloc(1024 * 1024, 4);
-    struct gn_made png = gn_maker_png(1024, 1024, rgba);
-    char image[80];
-    make_empty_targets(&m);
-    gn_maker_set(&m, "nodes", "[{}]");
-    gn_maker_set(&m, "meshes", "[]");
-    snprintf(image, sizeof image, "{'mimeType':'image/png','bufferView':%d}",
-             gn_maker_view(&m, png.data, png.size));
-    gn_maker_add(&m, "images", image);
-    if (!bake_within(&m, 4, &b)) fail_msg("%s", b.err.text);
-    assert_non_null(strstr(b.warnings.text[0], "memory_mb; kept as it is"));
-    assert_int_equal(b.report.scaled_images, 0);
+    struct gn_made pictures[] = {gn_maker_png(1024, 1024, rgba),
+                                 gn_bomb_jpeg_progressive(1024, 1024, TJSAMP_444)};
+    for (int i = 0; i < 2; i++) {
+        struct gn_maker m;
+        struct baked b;
+        char image[80];
+        make_empty_targets(&m);
+        gn_maker_set(&m, "nodes", "[{}]");
+        gn_maker_set(&m, "meshes", "[]");
+        snprintf(image, sizeof image, "{'mimeType':'image/png','bufferView':%d}",
+                 gn_maker_view(&m, pictures[i].data, pictures[i].size));
+        gn_maker_add(&m, "images", image);
+        if (!bake_within(&m, 3, &b)) fail_msg("%s", b.err.text);
+        assert_int_equal(b.report.scaled_images, i == 0);
+        if (i == 1) assert_non_null(strstr(b.warnings.text[0], "memory_mb; kept as it is"));
+        free(pictures[i].data);
+    }
     free(rgba);
-    free(png.data);
 }
 
 int main(void) {

@@ -232,7 +232,7 @@ static void test_scans_of_a_jpeg_are_bounded(void **state) {
                                           "not progressive");
         } else {
             uint8_t *rgba = calloc(64 * 64, 4);
-            if (!ok || !gn_jpeg_read(jpeg.data, jpeg.size, px, rgba, &err))
+            if (!ok || !gn_jpeg_read(jpeg.data, jpeg.size, px, 0, rgba, &err))
                 fail_msg("%s", err.text);
             assert_true(rgba[0] == 128 && rgba[3] == 255);
             free(rgba);

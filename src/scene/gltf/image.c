@@ -9,88 +9,71 @@
 #include <unistd.h>
 
 #include "core/encoding.h"
-#include "image/read.h"
+#include "image/format.h"
 
+enum { PICTURE_SIDE_MAX = 1 << 20 };
 enum { UNSEEN = -1, DROPPED = -2, BASIS = -3 };
-
-static const struct format {
-    const char *magic, *form; /* first bytes, and those from byte 8 on */
-    size_t magic_size;
-    bool (*size)(const uint8_t *, size_t, uint32_t[2], struct gn_err *);
-    uint64_t (*work_bytes)(const uint8_t *, size_t, const uint32_t[2]);
-    bool (*read)(const uint8_t *, size_t, const uint32_t[2], uint8_t *, struct gn_err *);
-} FORMATS[] = {
-    {"\x89PNG\r\n\x1a\n", "", 8, gn_png_size, gn_png_work_bytes, gn_png_read},
-    {"\xff\xd8\xff", "", 3, gn_jpeg_size, gn_jpeg_work_bytes, gn_jpeg_read},
-    {"RIFF", "WEBP", 4, gn_webp_size, gn_webp_work_bytes, gn_webp_read},
-    {GN_KTX2_MAGIC, "", 12, gn_ktx2_size, gn_ktx2_work_bytes, gn_ktx2_read},
-};
-#define OTHER_FORMAT "neither PNG, JPEG, WebP nor KTX2"
-enum { KTX2 = sizeof FORMATS / sizeof FORMATS[0] - 1 };
-enum { HEAD_BYTES = 12 }; /* that identify the format */
 
 /* ---- pictures ---- */
 
-static const struct format *format_of(const void *data, size_t size) {
-    for (size_t i = 0; data && i < sizeof FORMATS / sizeof FORMATS[0]; i++) {
-        const struct format *f = &FORMATS[i];
-        const size_t form_size = strlen(f->form);
-        if (size >= (form_size > 0 ? 8 + form_size : f->magic_size) &&
-            memcmp(data, f->magic, f->magic_size) == 0 &&
-            memcmp((const char *)data + (form_size > 0 ? 8 : 0), f->form, form_size) == 0)
-            return f;
+/* What it takes with so many halvings, the decoder's own among them being as few as there is room
+ * for. */
+static struct gn_picture_need need_of(const struct gn_picture_file *file, uint32_t level,
+                                      uint64_t room, uint32_t *shrink) {
+    struct gn_picture_need need = {0};
+    const uint32_t most = gn_picture_most_shrink(file);
+    for (int k = 0; k < 2; k++) need.px[k] = gn_level_px(file->px[k], level);
+    const uint64_t texels = (uint64_t)need.px[0] * need.px[1];
+    need.kept = 4 * texels;
+    need.on_gpu = 4 * (texels + texels / 3);
+    for (*shrink = 0;; ++*shrink) {
+        need.decoding = gn_picture_work_bytes(file, need.px, *shrink);
+        if (*shrink == most || *shrink == level || need.kept + need.decoding <= room) break;
     }
-    return NULL;
+    return need;
 }
 
-/* Into the scene's memory, or, if it is to be scaled, by way of the system's. */
-static bool read_pixels(struct gn_gltf *g, const struct gn_blob *blob,
-                        const struct gn_picture_need *whole, const uint32_t px[2],
-                        enum gn_scale_kind kind, uint8_t **out, struct gn_err *err) {
-    const struct format *format = format_of(blob->data, blob->size);
-    const bool smaller = px[0] != whole->px[0] || px[1] != whole->px[1];
-    const uint64_t kept = 4 * (uint64_t)px[0] * px[1];
-    uint8_t *rgba = *out = gn_gltf_alloc(g, g->memory.scene, kept, 1);
-    if (!rgba || !gn_gltf_check_time(g)) return false;
-    if (smaller) rgba = malloc(4 * (uint64_t)whole->px[0] * whole->px[1]);
-    const bool done = rgba ? format->read(blob->data, blob->size, whole->px, rgba, err)
-                           : gn_fail(err, "out of memory");
-    if (done && smaller) gn_picture_scale(rgba, whole->px, kind, *out, px);
-    if (!done) gn_arena_undo(g->memory.scene, *out, kept);
-    if (smaller) free(rgba);
-    return done;
+/* The halvings without which it is over the limit texels. */
+static uint32_t least_level(const struct gn_gltf *g, const uint32_t px[2]) {
+    uint32_t level = gn_gltf_halvings(px, PICTURE_SIDE_MAX);
+    while ((uint64_t)gn_level_px(px[0], level) * gn_level_px(px[1], level) > g->limits.texels)
+        level++;
+    return level;
 }
 
-static bool decode_image(struct gn_gltf *g, const struct gn_blob *blob, enum gn_scale_kind kind,
-                         struct gn_image *image, struct gn_err *err) {
-    const struct format *format = format_of(blob->data, blob->size);
-    struct gn_picture_need whole = {0};
-    uint32_t px[2];
-    uint8_t *rgba;
-    if (!format) return gn_fail(err, OTHER_FORMAT);
-    if (!format->size(blob->data, blob->size, whole.px, err)) return false;
-    const uint64_t texels = (uint64_t)whole.px[0] * whole.px[1];
-    const uint32_t level = gn_gltf_halvings(whole.px, g->limits.texture_px);
-    whole.kept = 4 * texels;
-    whole.on_gpu = 4 * (texels + texels / 3);
-    whole.decoding = format->work_bytes(blob->data, blob->size, whole.px);
-    whole.halved = whole.decoding + whole.kept;
-    struct gn_picture_need need = whole;
-    for (int k = 0; k < 2; k++) px[k] = gn_level_px(whole.px[k], level);
-    if (level > 0) {
-        const uint64_t left = (uint64_t)px[0] * px[1];
-        need.kept = 4 * left;
-        need.on_gpu = 4 * (left + left / 3);
-        need.decoding = whole.halved;
-    }
+static bool decode_image(struct gn_gltf *g, const struct gn_at *at, const struct gn_blob *blob,
+                         enum gn_scale_kind kind, struct gn_image *image, struct gn_err *err) {
+    struct gn_picture_file file = {
+        gn_format_of(blob->data, blob->size), blob->data, blob->size, {0}};
+    uint32_t shrink;
+    if (file.kind == GN_FORMAT_OTHER) return gn_fail(err, GN_FORMAT_OTHER_TEXT);
+    if (!gn_picture_size(&file, err)) return false;
+    if (file.px[0] == 0 || file.px[1] == 0) return gn_fail(err, "width or height is 0");
+    const uint32_t least = least_level(g, file.px),
+                   wanted = gn_gltf_halvings(file.px, g->limits.texture_px),
+                   level = wanted > least ? wanted : least;
+    struct gn_picture_need whole = need_of(&file, least, 0, &shrink);
+    for (uint32_t i = 0; i < GN_HALVINGS; i++)
+        whole.halved[i] = need_of(&file, least + 1 + i, 0, &shrink).decoding;
+    whole.work = gn_gltf_picture_work(file.px);
+    struct gn_picture_need need = need_of(&file, level, gn_gltf_picture_room(g), &shrink);
+    need.work = whole.work;
     if (!gn_gltf_picture_fits(g, &need, &whole, err)) return false;
-    if (!read_pixels(g, blob, &need, px, kind, &rgba, err)) {
-        g->damaged_work += gn_gltf_picture_work(&need);
+    if (least > 0 && wanted < least)
+        gn_gltf_warn(g, at,
+                     "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64
+                     ": halved to %" PRIu32 "x%" PRIu32,
+                     file.px[0], file.px[1], g->limits.texels, need.px[0], need.px[1]);
+    uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, need.kept, 1);
+    if (!rgba || !gn_gltf_check_time(g)) return false;
+    if (!gn_picture_decode(&file, shrink, kind, rgba, need.px, err)) {
+        gn_arena_undo(g->memory.scene, rgba, need.kept);
+        g->damaged_work += need.work;
         return false;
     }
     gn_gltf_picture_count(g, &need);
-    *image = (struct gn_image){.width_px = px[0], .height_px = px[1], .rgba = rgba};
-    image->has_alpha = gn_packing_has_alpha(GN_PACKING_RGBA8, rgba, px);
+    *image = (struct gn_image){.width_px = need.px[0], .height_px = need.px[1], .rgba = rgba};
+    image->has_alpha = gn_packing_has_alpha(GN_PACKING_RGBA8, rgba, need.px);
     return true;
 }
 
@@ -100,13 +83,13 @@ static bool take_image(struct gn_gltf *g, const struct gn_at *at, const struct g
                        enum gn_scale_kind kind, struct gn_image *image, bool *basis,
                        struct gn_err *err) {
     struct gn_ktx2 ktx2;
-    if (format_of(blob->data, blob->size) != &FORMATS[KTX2])
-        return decode_image(g, blob, kind, image, err);
+    if (gn_format_of(blob->data, blob->size) != GN_FORMAT_KTX2)
+        return decode_image(g, at, blob, kind, image, err);
     const bool known = gn_ktx2_open(blob->data, blob->size, &ktx2, err);
     *basis = ktx2.basis;
     if (!known) return false;
     if (ktx2.level_count == 1 && ktx2.packing == GN_PACKING_RGBA8)
-        return decode_image(g, blob, kind, image, err);
+        return decode_image(g, at, blob, kind, image, err);
     if (!gn_gltf_levels(g, blob, &ktx2, image, err)) return false;
     const uint32_t most = g->limits.texture_px;
     if (most > 0 && (image->width_px > most || image->height_px > most))
@@ -151,14 +134,14 @@ static bool open_source(struct gn_gltf *g, const struct gn_at *at, struct source
 /* A file of gigabytes that is no picture is not read. */
 static bool read_source(struct gn_gltf *g, struct source *source, struct gn_err *err) {
     if (source->fd < 0) return true;
-    uint8_t head[HEAD_BYTES];
+    uint8_t head[GN_FORMAT_HEAD_BYTES];
     const ssize_t size = pread(source->fd, head, sizeof head, 0);
     const int fd = source->fd;
     source->fd = -1;
-    if (size < 0 || format_of(head, (size_t)size))
+    if (size < 0 || gn_format_of(head, (size_t)size) != GN_FORMAT_OTHER)
         return gn_uri_read(g, fd, source->uri, &source->blob, err);
     close(fd);
-    return gn_fail(err, OTHER_FORMAT);
+    return gn_fail(err, GN_FORMAT_OTHER_TEXT);
 }
 
 /* The first image with the same source, or this one. */

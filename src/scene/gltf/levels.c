@@ -16,7 +16,9 @@ static struct gn_picture_need need_of(const struct gn_ktx2 *ktx2, uint32_t first
     for (int k = 0; k < 2; k++) need.px[k] = gn_level_px(ktx2->px[k], first);
     need.kept = need.on_gpu =
         gn_packing_all_bytes(ktx2->packing, need.px, ktx2->level_count - first);
-    need.halved = first + 1 < ktx2->level_count ? need.decoding + 1 : 0;
+    for (int i = 0; i < GN_HALVINGS && first + 1 < ktx2->level_count; i++)
+        need.halved[i] = need.decoding + 1;
+    need.work = gn_gltf_picture_work(need.px);
     return need;
 }
 
@@ -28,7 +30,7 @@ bool gn_gltf_levels(struct gn_gltf *g, const struct gn_blob *blob, const struct 
     uint8_t *levels = gn_gltf_alloc(g, g->memory.scene, need.kept, 1);
     if (!levels || !gn_gltf_check_time(g)) return false;
     if (!gn_ktx2_read_levels(blob->data, blob->size, ktx2, first, levels, err)) {
-        g->damaged_work += gn_gltf_picture_work(&need);
+        g->damaged_work += need.work;
         gn_arena_undo(g->memory.scene, levels, need.kept);
         return false;
     }

@@ -53,9 +53,10 @@ char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
 
 /* ---- pictures ---- */
 
-/* Decoding costs time by texels, and by rows where these are short: libpng visits each in up to
- * seven passes. A row counts as so many texels more. */
-enum { ROW_WORK = 128 };
+/* Decoding takes time by texels, however small a picture is made, and by rows where these are
+ * short: libpng visits each in up to seven passes. A row counts as so many texels more, and all
+ * together are at most as many as in so many of the largest pictures. */
+enum { ROW_WORK = 512, LARGEST_PICTURES = 16 };
 
 enum {
     LOADS_MAX = 2,  /* with pictures too large, for their sake, then for that of the GPU */
@@ -79,6 +80,14 @@ bool gn_gltf_halve_pictures(struct gn_gltf *g, const char *limit, uint64_t mb) {
     return true;
 }
 
+/* With so many halvings. */
+static uint64_t least_decoding(const struct gn_picture_need *whole, uint32_t level) {
+    if (level == 0) return whole->decoding;
+    return whole->halved[(level < GN_HALVINGS ? level : GN_HALVINGS) - 1];
+}
+
+static bool can_be_halved(const struct gn_picture_need *whole) { return whole->halved[0] > 0; }
+
 /* Whether those noted are within memory_mb and decoded_mb, with longer sides within most_px. */
 static bool all_fit(const struct gn_gltf *g, uint32_t most_px) {
     const uint64_t room = g->pictures.room - g->pictures.room / FOLLOWING;
@@ -86,8 +95,8 @@ static bool all_fit(const struct gn_gltf *g, uint32_t most_px) {
     bool fit = true;
     for (size_t i = 0; i < g->pictures.need_count; i++) {
         const struct gn_picture_need *whole = &g->pictures.needs[i];
-        const uint32_t level = whole->halved ? gn_gltf_halvings(whole->px, most_px) : 0;
-        const uint64_t decoding = level ? whole->halved : whole->decoding;
+        const uint32_t level = can_be_halved(whole) ? gn_gltf_halvings(whole->px, most_px) : 0;
+        const uint64_t decoding = least_decoding(whole, level);
         kept += whole->kept >> 2 * level;
         const uint64_t its_gpu = whole->on_gpu >> 2 * level;
         fit &= kept + on_gpu + (decoding > its_gpu ? decoding : its_gpu) <= room &&
@@ -111,43 +120,62 @@ uint32_t gn_gltf_fit_pictures(const struct gn_gltf *g) {
 }
 
 /* Notes what it takes, unless it cannot be shown at any size. */
-static void note_need(struct gn_gltf *g, const struct gn_picture_need *whole) {
+static void note_need(struct gn_gltf *g, const struct gn_picture_need *whole, bool halves) {
     struct gn_gltf_pictures *p = &g->pictures;
-    const uint64_t decoded = g->limits.decoded_mb << 20;
-    if (!p->needs) {
-        p->room = gn_gltf_room(g);
-        p->needs = gn_gltf_alloc(g, &g->memory.load, g->file.image_count, sizeof *p->needs);
-    }
-    const uint64_t least = whole->halved ? whole->halved : whole->kept + whole->decoding;
-    if (p->needs && p->need_count < g->file.image_count && least < p->room && least < decoded)
-        p->needs[p->need_count++] = *whole;
+    const bool fits = can_be_halved(whole)
+                          ? halves
+                          : whole->kept + whole->decoding < p->room &&
+                                whole->kept + whole->decoding < g->limits.decoded_mb << 20;
+    if (p->needs && p->need_count < g->file.image_count && fits) p->needs[p->need_count++] = *whole;
+}
+
+static void begin_needs(struct gn_gltf *g) {
+    if (g->pictures.needs) return;
+    g->pictures.room = gn_gltf_room(g);
+    GN_NEW(g, &g->memory.load, g->pictures.needs, g->file.image_count);
+}
+
+uint64_t gn_gltf_picture_room(const struct gn_gltf *g) {
+    const uint64_t room = gn_gltf_room(g), limit = g->limits.decoded_mb << 20;
+    const uint64_t decoded = limit > g->decoded_bytes ? limit - g->decoded_bytes : 0;
+    return decoded < room ? decoded : room;
+}
+
+/* False. Why, where the decoder cannot make it small enough. */
+static bool fail_over(const struct gn_picture_need *whole, const char *what, struct gn_err *err) {
+    const uint64_t mb = (least_decoding(whole, GN_HALVINGS) >> 20) + 1;
+    if (!can_be_halved(whole)) return gn_fail(err, "%s", what);
+    return gn_fail(err, "%s: at any size, decoding it takes %" PRIu64 " MB", what, mb);
+}
+
+static bool is_quick(const struct gn_gltf *g, uint64_t work, const uint32_t px[2],
+                     struct gn_err *err) {
+    return work <= LARGEST_PICTURES * g->limits.texels ||
+           gn_fail(err,
+                   "not decoded: pictures of %s take too long: over %d times the limit "
+                   "texels=%" PRIu64,
+                   px[0] < ROW_WORK ? "narrow rows" : "so many texels", LARGEST_PICTURES,
+                   g->limits.texels);
 }
 
 bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
                           const struct gn_picture_need *whole, struct gn_err *err) {
-    const uint32_t *px = need->px;
-    const uint64_t texels = (uint64_t)px[0] * px[1];
-    if (texels == 0) return gn_fail(err, "width or height is 0");
-    if (texels > g->limits.texels || px[0] > 1U << 20 || px[1] > 1U << 20)
-        return gn_fail(err, "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64, px[0],
-                       px[1], g->limits.texels);
-    note_need(g, whole);
+    if (!is_quick(g, need->work, need->px, err)) return false;
+    begin_needs(g);
+    const uint64_t least = least_decoding(whole, GN_HALVINGS);
+    const bool halves =
+        can_be_halved(whole) && least < g->pictures.room && least < g->limits.decoded_mb << 20;
+    note_need(g, whole, halves);
     if (g->failed || g->pictures.over) return false;
-    const bool halves = whole->halved && whole->halved < g->pictures.room &&
-                        whole->halved < g->limits.decoded_mb << 20;
     /* the decoder's memory is free again before the GPU has the picture */
     const uint64_t more = need->decoding > need->on_gpu ? need->decoding : need->on_gpu;
     if (need->kept + more > gn_gltf_room(g))
         return !(halves && gn_gltf_halve_pictures(g, "memory_mb", g->limits.memory_mb)) &&
-               gn_fail(err, "exceeds the limit memory_mb");
+               fail_over(whole, "exceeds the limit memory_mb", err);
     if (g->decoded_bytes + need->kept + need->decoding > g->limits.decoded_mb << 20)
         return !(halves && gn_gltf_halve_pictures(g, "decoded_mb", g->limits.decoded_mb)) &&
-               gn_fail(err, "not decoded: over the limit decoded_mb=%" PRIu64,
-                       g->limits.decoded_mb);
-    if (g->decode_work > (g->limits.memory_mb << 20) / 4)
-        return gn_fail(err,
-                       "not decoded: pictures of narrow rows take too long for memory_mb=%" PRIu64,
-                       g->limits.memory_mb);
+               fail_over(whole, "not decoded: over the limit decoded_mb", err);
+    if (!is_quick(g, g->decode_work + need->work, need->px, err)) return false;
     if (g->damaged_work > g->limits.texels)
         return gn_fail(err, "not decoded: damaged pictures have used up the limit texels=%" PRIu64,
                        g->limits.texels);
@@ -155,12 +183,12 @@ bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
     return true;
 }
 
-uint64_t gn_gltf_picture_work(const struct gn_picture_need *need) {
-    return (uint64_t)need->px[0] * need->px[1] + (uint64_t)ROW_WORK * need->px[1];
+uint64_t gn_gltf_picture_work(const uint32_t px[2]) {
+    return (uint64_t)px[0] * px[1] + (uint64_t)ROW_WORK * px[1];
 }
 
 void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need) {
-    g->decode_work += gn_gltf_picture_work(need);
+    g->decode_work += need->work;
     g->decoded_bytes += need->kept;
     g->memory.other_bytes += need->on_gpu;
 }
