@@ -213,6 +213,49 @@ static void add_lights(struct gn_bomb *b) {
     }
 }
 
+/* A material with a picture, and a node that shows it. */
+static void add_picture(struct gn_bomb *b, int view) {
+    const int image = gn_bomb_begin(b, GN_BOMB_IMAGES);
+    gn_bomb_put(&b->arrays[GN_BOMB_IMAGES], "{'bufferView':%d,'mimeType':'image/png'}", view);
+    const int texture = gn_bomb_begin(b, GN_BOMB_TEXTURES);
+    gn_bomb_put(&b->arrays[GN_BOMB_TEXTURES], "{'source':%d}", image);
+    const int material = gn_bomb_begin(b, GN_BOMB_MATERIALS);
+    gn_bomb_put(&b->arrays[GN_BOMB_MATERIALS], "{'%s':{'index':%d}}",
+                gn_bomb_below(b, 2) ? "emissiveTexture" : "occlusionTexture", texture);
+    const int mesh = gn_bomb_begin(b, GN_BOMB_MESHES);
+    gn_bomb_put(&b->arrays[GN_BOMB_MESHES],
+                "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':%d}]}",
+                material);
+    add_node(b, mesh);
+}
+
+/* Many texels in a few bytes, in each format: sides of up to what it can have, or short ones. */
+static void add_large_pictures(struct gn_bomb *b) {
+    struct gn_made made;
+    const int many = 1 + (int)gn_bomb_below(b, 20), format = (int)gn_bomb_below(b, 4);
+    const int most[] = {16384, 65500, 16383, 8192};
+    int px[2];
+    for (int k = 0; k < 2; k++)
+        px[k] = gn_bomb_below(b, 3) ? most[format] >> gn_bomb_below(b, 3)
+                                    : (int)gn_bomb_magnitude(b, most[format]);
+    const int depths[] = {1, 8, 16, 32};
+    const bool flag = gn_bomb_below(b, 2);
+    const int depth = px[0] > 8192 || px[1] > 8192 ? 0 : (int)gn_bomb_below(b, 4);
+    const struct gn_bomb_png png = {.width_px = (uint32_t)px[0],
+                                    .height_px = (uint32_t)px[1],
+                                    .depth = depths[depth],
+                                    .interlaced = flag};
+    switch (format) {
+    case 0: made = gn_bomb_png_make(&png); break;
+    case 1: made = gn_bomb_jpeg_arithmetic(px[0], px[1], depth > 1 ? 3 : 1, flag); break;
+    case 2: made = gn_bomb_webp(px[0], px[1]); break;
+    default: made = gn_bomb_ktx2(px[0], px[1], depth + 1);
+    }
+    for (int i = 0; i < many; i++) /* each has a place of its own: else it is decoded once */
+        add_picture(b, gn_bomb_view(b, made.data, made.size, 0));
+    free(made.data);
+}
+
 /* Pictures of one view or of many parts of one, and textures and materials that use them. */
 static void add_images(struct gn_bomb *b) {
     struct gn_made made;
@@ -249,18 +292,7 @@ static void add_images(struct gn_bomb *b) {
                         b->bin_size - (made.size + 3) / 4 * 4,
                         made.size > (size_t)i ? made.size - (size_t)i : made.size);
         }
-        const int image = gn_bomb_begin(b, GN_BOMB_IMAGES);
-        gn_bomb_put(&b->arrays[GN_BOMB_IMAGES], "{'bufferView':%d,'mimeType':'image/png'}", of);
-        const int texture = gn_bomb_begin(b, GN_BOMB_TEXTURES);
-        gn_bomb_put(&b->arrays[GN_BOMB_TEXTURES], "{'source':%d}", image);
-        const int material = gn_bomb_begin(b, GN_BOMB_MATERIALS);
-        gn_bomb_put(&b->arrays[GN_BOMB_MATERIALS], "{'%s':{'index':%d}}",
-                    gn_bomb_below(b, 2) ? "emissiveTexture" : "occlusionTexture", texture);
-        const int mesh = gn_bomb_begin(b, GN_BOMB_MESHES);
-        gn_bomb_put(&b->arrays[GN_BOMB_MESHES],
-                    "{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':%d}]}",
-                    material);
-        add_node(b, mesh);
+        add_picture(b, of);
     }
     free(made.data);
 }
@@ -372,6 +404,7 @@ static const struct kind {
     {"instances", add_instances},
     {"nodes", add_nodes},
     {"images", add_images},
+    {"large pictures", add_large_pictures},
     {"lights", add_lights},
     {"animations", add_animations},
     {"words", add_words},
