@@ -2,6 +2,7 @@
 
 #include <ctype.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/arena.h"
@@ -39,6 +40,21 @@ static unsigned spills_of(const char *line) {
     return number_before(line, " stp") + number_before(line, " ldp");
 }
 
+/* Of texels, by a wave of the smallest kind. Mali's compilers say for how many clocks a large
+ * core's texture units are busy, which take so many at once; the others' say nothing. */
+static int fetches_of(const char *line) {
+    static const struct {
+        const char *what;
+        float per_clock;
+    } words[] = {{" texture,", 2}, {" t,", 4}};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        const char *at = strstr(line, words[i].what);
+        while (at && at > line && at[-1] != ' ') at--;
+        if (at) return (int)(words[i].per_clock * strtof(at, NULL) + 0.5f);
+    }
+    return GN_COST_UNKNOWN;
+}
+
 bool gn_cost_read(struct gn_cost *cost, const char *line) {
     struct gn_cost_stage stage;
     const char *colon = strstr(line, " shader: ");
@@ -46,6 +62,7 @@ bool gn_cost_read(struct gn_cost *cost, const char *line) {
     name_stage(line, stage.name, sizeof stage.name);
     stage.instructions = number_before(colon, " inst");
     stage.spills = spills_of(colon);
+    stage.fetches = fetches_of(colon);
     int i = 0;
     while (i < cost->count && strcmp(cost->stages[i].name, stage.name) != 0) i++;
     if (i == GN_COST_STAGES) return false;
@@ -118,8 +135,8 @@ bool gn_cost_find(const char *path, uint64_t hash, struct gn_cost *cost) {
     unsigned long long known;
     while (file && cost->count < GN_COST_STAGES && fgets(line, sizeof line, file)) {
         struct gn_cost_stage *stage = &cost->stages[cost->count];
-        cost->count += sscanf(line, "COST %llx %u %u %15s", &known, &stage->instructions,
-                              &stage->spills, stage->name) == 4 &&
+        cost->count += sscanf(line, "COST %llx %u %u %d %15s", &known, &stage->instructions,
+                              &stage->spills, &stage->fetches, stage->name) == 5 &&
                        known == hash;
     }
     if (file) fclose(file);

@@ -4,10 +4,11 @@
 
 #include "gl/private.h"
 
-enum { GN_COST_STAGES = 6 };
+enum { GN_COST_STAGES = 6, GN_COST_UNKNOWN = -1 };
 struct gn_cost_stage {
     char name[16]; /* fragment, vertex, binning, position, varying */
     unsigned instructions, spills;
+    int fetches; /* of texels; GN_COST_UNKNOWN: the compiler does not say */
 };
 struct gn_cost { /* of a program */
     struct gn_cost_stage stages[GN_COST_STAGES];

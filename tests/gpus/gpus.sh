@@ -74,16 +74,18 @@ compare() {
         BEGIN {
             while ((getline line < budget) > 0) {
                 if (line ~ /^# /) { head = line; continue }
-                split(line, w, " "); name = line; sub(/^ *[0-9]+ +[0-9]+ +/, "", name); sub(/ +/, " ", name)
-                most[name] = w[1]; spills[name] = w[2]
+                split(line, w, " "); name = line; sub(/^ *[0-9]+ +[0-9]+ +-?[0-9]+ +/, "", name); sub(/ +/, " ", name)
+                most[name] = w[1]; spills[name] = w[2]; fetches[name] = w[3]
             }
         }
         $1 == "GPU" { mesa = $3; sub(/.*Mesa /, "", mesa); sub(/-.*/, "", mesa) }
         $1 == "COST" {
-            name = $5 " " $6; seen[name] = 1
+            name = $6 " " $7; seen[name] = 1
             if (!(name in most)) { if (!full || head ~ /full/) missing[name] = $3; else later++ }
             else if ($3 + 0 > most[name] + 0 || $4 + 0 > spills[name] + 0)
                 dear[name] = $3 " instructions and " $4 " spills, budget " most[name] " and " spills[name]
+            else if (fetches[name] >= 0 && $5 > fetches[name])
+                dear[name] = $5 " fetches, budget " fetches[name]
             else if ($3 * 1.05 < most[name]) cheap[name] = $3
         }
         END {
@@ -108,12 +110,12 @@ update() {
     [ -z "${GN_FULL:-}" ] && ! grep -qs '^#.* full$' "$file" || form=full
     mkdir -p "$here/budget"
     {
-        echo "# $1, Mesa $mesa, instructions, spills, stage, program: $form"
+        echo "# $1, Mesa $mesa, instructions, spills, fetches (-1: not said), stage, program: $form"
         {
             [ -n "${GN_FULL:-}" ] || grep -v '^#' "$file" 2> /dev/null
-            awk -F '\t' '$1 == "COST" { printf "%5d %2d %-8s %s\n", $3, $4, $5, $6 }' "$2"
-        } | awk '{ name = $0; sub(/^ *[0-9]+ +[0-9]+ +/, "", name); line[name] = $0 } # the later one stays
-                 END { for (n in line) print line[n] }' | LC_ALL=C sort -k 4 -k 3,3
+            awk -F '\t' '$1 == "COST" { printf "%5d %2d %3d %-8s %s\n", $3, $4, $5, $6, $7 }' "$2"
+        } | awk '{ name = $0; sub(/^ *[0-9]+ +[0-9]+ +-?[0-9]+ +/, "", name); line[name] = $0 } # the later one stays
+                 END { for (n in line) print line[n] }' | LC_ALL=C sort -k 5 -k 4,4
     } > "$file.new" && mv "$file.new" "$file"
 }
 

@@ -5,9 +5,9 @@
  * that the frame builder makes of small scenes, with every technique, light and encoding that there
  * is in the tables. What is tried with one kind of light only is so with another one for another N.
  * Prints, separated by tabs,
- *   GPU renderer version    COST hash instructions spills stage program    FAIL what    DONE counts
- * and ends with 0, 1 (something failed) or 2 (nothing could be tried). COST lines of an earlier run
- * with the same driver may be in FILE: what has the same hash is not compiled again. */
+ *   GPU renderer version    COST hash instructions spills fetches stage program    FAIL what DONE
+ * counts and ends with 0, 1 (something failed) or 2 (nothing could be tried). COST lines of an
+ * earlier run with the same driver may be in FILE: what has the same hash is not compiled again. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,8 +87,9 @@ static bool measure(struct bench *b, const struct gn_plan *plan, uint32_t index)
     const bool known = gn_cost_hash(b->gl, plan, key, &hash) && gn_cost_find(b->known, hash, &cost);
     if (!known && !compile(b, plan, index, name, &cost)) return false;
     for (int i = 0; i < cost.count; i++)
-        printf("COST\t%016llx\t%u\t%u\t%s\t%s\n", (unsigned long long)hash,
-               cost.stages[i].instructions, cost.stages[i].spills, cost.stages[i].name, name);
+        printf("COST\t%016llx\t%u\t%u\t%d\t%s\t%s\n", (unsigned long long)hash,
+               cost.stages[i].instructions, cost.stages[i].spills, cost.stages[i].fetches,
+               cost.stages[i].name, name);
     return true;
 }
 
