@@ -187,8 +187,8 @@ LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plat
 BOOK    := watch room carousel foliage product architecture studio window
 SELFTEST := $(foreach s,box ball fence lattice tilt stack lamp,$(addprefix $(O)/selftest/$s,.glb .truth))
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
-           $(SELFTEST) $(LESSONS) $(O)/studio.env
-EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env,$(suffix $f)),$f))
+           $(SELFTEST) $(LESSONS) $(O)/studio.env $(O)/programs.cost
+EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env .cost,$(suffix $f)),$f))
 
 # not out of a library: another one's dlclose would be found first
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))
@@ -295,6 +295,9 @@ $(O)/host/make_studio: $(wildcard src/environment/*.c) $(addprefix src/,image/hd
 $(O)/host/embed $(O)/host/man $(O)/host/completion $(HOST_ASSETS):
 	@mkdir -p $(@D) && echo "host $@"
 	$(Q)$(HOST)
+$(O)/programs.cost: board/programs.awk $(wildcard tests/gpus/budget/*)
+	@mkdir -p $(@D)
+	$(Q)LC_ALL=C awk -f $^ > $@.tmp && mv $@.tmp $@
 assets/sundial.glb: $(O)/host/make_sundial
 	$(Q)$< $@.tmp && mv $@.tmp $@
 assets/bench/%.glb: $(O)/host/make_bench

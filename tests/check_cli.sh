@@ -30,7 +30,7 @@ grep -q '^gnomon [0-9]' "$folder/out" || complain '-V'
 expect 2 'did you mean render?' help rendr
 expect 2 '-o: write -o VALUE or --out=VALUE' render -o=q.png
 [ ! -e =q.png ] || complain '-o=q.png wrote a file'
-expect 2 'unknown option --foo; --help lists the options' --foo
+expect 2 'unknown option --quux; --help lists the options' --quux
 expect 2 'did you mean pcf?' render --shadow pfc -o "$folder/a.png"
 expect 2 'gnomon: unknown option --sise; did you mean --size?' --sise 1x1
 expect 2 'did you mean render?' rendr
@@ -40,6 +40,10 @@ expect 0 '/nowhere/x.ttf: cannot open' render --size 64x64 --caption Hi --font /
 expect 0 '' render --size 64x64 --font /nowhere/x.ttf -o "$folder/plain.png" # nobody needs it
 cmp -s "$folder/note.png" "$folder/plain.png" && complain 'a caption that is not in the picture'
 expect 0 'warning: shadow maps exceed the limit maps_mb=1: tiles of up to' render --size 64x64 --limit maps_mb=1 -o "$folder/plain.png"
+expect 0 '' inspect --for pi4 --size 640x360
+grep -q '^Time on Raspberry Pi 4.* at 640x360 with 4 samples' "$folder/out" || complain 'inspect: the time on a board'
+expect 2 'gnomon: --for: "pi9" is not one of none, pi4, pi5, g31, g52, g610, a618, a660; did you mean pi4?' inspect --for pi9
+expect 2 '--size: inspect needs --for GPU with it' inspect --size 640x360
 expect 0 '' inspect --limit maps_mb=1
 grep -q 'shadow maps of [0-9]* MB exceed the limit maps_mb=1: they are reduced' "$folder/out" || complain 'inspect: maps over the limit'
 expect 0 '' inspect --limit maps_mb=100

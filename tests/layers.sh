@@ -14,13 +14,14 @@ BEGIN {
     may["shadow"] = "core scene"
     may["truth"] = "core scene"
     may["frame"] = "core environment scene shadow caption"
+    may["cost"] = "core environment scene shadow truth frame caption"
     may["gl"] = "core environment scene shadow frame caption"
     may["caption"] = may["display"] = may["input"] = may["take"] = "core"
     may["import"] = "core image" # a program of its own
-    may["options"] = "core scene shadow frame display input take"
+    may["options"] = "core scene shadow frame cost display input take"
     may["stage"] = "core image environment scene shadow truth frame gl display input caption options"
     may["kiosk"] = may["stage"] " stage take"
-    may["cli"] = may["kiosk"] " kiosk bake"
+    may["cli"] = may["kiosk"] " kiosk bake cost"
     # which rooms may include <KEY..>
     foreign["GLES3/"] = foreign["GLES2/"] = "gl"
     foreign["EGL/"] = foreign["GL/osmesa.h"] = foreign["gbm.h"] = foreign["xf86drm"] = "display"

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "cli/inspect_time.h"
 #include "cli/problem.h"
 #include "core/err.h"
 #include "core/warn.h"
@@ -32,6 +33,7 @@ struct gn_inspection {
     struct gn_scene_cost cost;
     float depths_m[GN_INSPECT_CAMERAS][2]; /* of the first cameras: near and far plane, as drawn */
     struct gn_problem_list advice;
+    const struct gn_inspect_time *time; /* of --for, or NULL */
 };
 
 /* All but `limits` and `settings` of it; file, scene and warnings must outlive it. shadow: NULL, or
@@ -67,6 +69,7 @@ void gn_inspect_print(const struct gn_inspection *in, FILE *to);
  * cost {width_px, height_px, passes, shadow_passes, draws, shadow_draws, programs, culled,
  *     triangles, shadow_triangles, vertex_bytes, index_bytes, texture_bytes, map_bytes,
  *     target_bytes, memory_bytes, loading_bytes (at most, while it was loaded)},
+ * time (with --for, as gn_inspect_time_json() has it; else it is left out),
  * limits (text: NAME=VALUE, ..),
  * warnings [text], warnings_dropped, advice [{what, cure}], advice_dropped. */
 bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_err *err);

@@ -1,6 +1,5 @@
 #include <jansson.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 
 #include "cli/inspect.h"
@@ -79,23 +78,14 @@ static void get_scene_size(const struct gn_scene *scene, vec3 out) {
 
 /* ---- for people ---------------------------------------------------------------------------- */
 
-/* Names come from a file: control characters are escaped. */
-__attribute__((format(printf, 2, 3))) static void print_line(FILE *to, const char *format, ...) {
-    char text[512];
-    va_list args;
-    va_start(args, format);
-    gn_text_vformat(text, sizeof text, format, args);
-    va_end(args);
-    fprintf(to, "  %s\n", text);
-}
-
 static void print_image(FILE *to, uint32_t i, const struct gn_image *image) {
     char packed[48] = "";
     if (image->levels)
         snprintf(packed, sizeof packed, ", %s, %u level%s", gn_packing_names[image->packing],
                  image->level_count, image->level_count == 1 ? "" : "s");
-    print_line(to, "%-3u %ux%u%s%s, %.2f MB", i, image->width_px, image->height_px,
-               image->has_alpha ? " with alpha" : "", packed, GN_MB(gn_scene_image_bytes(image)));
+    gn_text_print_line(to, "%-3u %ux%u%s%s, %.2f MB", i, image->width_px, image->height_px,
+                       image->has_alpha ? " with alpha" : "", packed,
+                       GN_MB(gn_scene_image_bytes(image)));
 }
 
 static void print_lists(const struct gn_inspection *in, FILE *to) {
@@ -114,15 +104,16 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
             snprintf(range, sizeof range, ", range %.4g m", (double)light->range_m);
         if (light->map_px) snprintf(map, sizeof map, ", map %u px", light->map_px);
         if (light->slide >= 0) snprintf(slide, sizeof slide, ", slide texture %d", light->slide);
-        print_line(to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
-                   light->name, gn_light_types[light->type].name, max_channel(light),
-                   gn_light_types[light->type].unit, cone, range,
-                   light->technique ? light->technique : "by mode", map, (double)light->radius,
-                   (double)light->shadow_strength, slide,
-                   is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
+        gn_text_print_line(
+            to, "%-3u %s: %s, %.4g %s%s%s, shadow %s%s, radius %.3g, strength %.3g%s%s", i,
+            light->name, gn_light_types[light->type].name, max_channel(light),
+            gn_light_types[light->type].unit, cone, range,
+            light->technique ? light->technique : "by mode", map, (double)light->radius,
+            (double)light->shadow_strength, slide,
+            is_made(s->added.light, i, s->light_count) ? " (made: the file has none)" : "");
         char own[320];
         print_settings(in, i, own, sizeof own);
-        if (own[0]) print_line(to, "    by the configuration: %s", own);
+        if (own[0]) gn_text_print_line(to, "    by the configuration: %s", own);
     }
     fprintf(to, "\nCameras\n");
     for (uint32_t i = 0; i < s->camera_count; i++) {
@@ -136,26 +127,27 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
         if (i < GN_INSPECT_CAMERAS && in->depths_m[i][0] > c->near_m)
             snprintf(drawn, sizeof drawn, ", near plane at %.4g m: nothing is nearer in view",
                      (double)in->depths_m[i][0]);
-        print_line(to, "%-3u %s: %s, from %.4g m to %s%s%s", i, c->name, lens, (double)c->near_m,
-                   far, drawn,
-                   is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)"
-                                                                : "");
+        gn_text_print_line(
+            to, "%-3u %s: %s, from %.4g m to %s%s%s", i, c->name, lens, (double)c->near_m, far,
+            drawn,
+            is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)" : "");
     }
     if (s->animation.clip_count) fprintf(to, "\nClips\n");
     for (uint32_t i = 0; i < s->animation.clip_count; i++) {
-        print_line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
-                   (double)s->animation.clips[i].duration_ns * 1e-9,
-                   s->animation.clips[i].channel_count,
-                   s->animation.clips[i].channel_count == 1 ? "" : "s",
-                   s->animation.clips[i].on_by_default ? "on" : "off");
+        gn_text_print_line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
+                           (double)s->animation.clips[i].duration_ns * 1e-9,
+                           s->animation.clips[i].channel_count,
+                           s->animation.clips[i].channel_count == 1 ? "" : "s",
+                           s->animation.clips[i].on_by_default ? "on" : "off");
         const struct gn_channel *channel =
             &s->animation.channels[s->animation.clips[i].first_channel];
         for (uint32_t k = 0; k < s->animation.clips[i].channel_count; k++, channel++)
-            if (channel->path == GN_ANIM_RECORD) print_line(to, "    moves %s", channel->pointer);
+            if (channel->path == GN_ANIM_RECORD)
+                gn_text_print_line(to, "    moves %s", channel->pointer);
     }
     if (s->variants.count) fprintf(to, "\nVariants of materials\n");
     for (uint32_t i = 0; i < s->variants.count; i++)
-        print_line(to, "%-3u %s", i, s->variants.names[i]);
+        gn_text_print_line(to, "%-3u %s", i, s->variants.names[i]);
 }
 
 static void print_scene(const struct gn_inspection *in, FILE *to) {
@@ -165,34 +157,34 @@ static void print_scene(const struct gn_inspection *in, FILE *to) {
     vec3 size;
     get_scene_size(s, size);
     fprintf(to, "Scene\n");
-    print_line(to, "%-11s %s", "file", in->file);
-    if (s->name && s->name[0]) print_line(to, "%-11s %s", "name", s->name);
-    print_line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
-               (double)size[2]);
+    gn_text_print_line(to, "%-11s %s", "file", in->file);
+    if (s->name && s->name[0]) gn_text_print_line(to, "%-11s %s", "name", s->name);
+    gn_text_print_line(to, "%-11s %.4g x %.4g x %.4g m", "size", (double)size[0], (double)size[1],
+                       (double)size[2]);
     const double *origin = s->place.origin;
     if (origin[0] != 0 || origin[1] != 0 || origin[2] != 0)
-        print_line(to, "%-11s far from the file's: drawn around %.10g %.10g %.10g", "place",
-                   origin[0], origin[1], origin[2]);
-    print_line(to, "%-11s %u", "nodes", n.nodes);
-    print_line(to, "%-11s %u in %u batches, %u of them instances", "items", n.items, n.batches,
-               s->instance_count);
-    print_line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items", "meshes",
-               n.geometries, n.vertices, (unsigned long long)n.triangles);
+        gn_text_print_line(to, "%-11s far from the file's: drawn around %.10g %.10g %.10g", "place",
+                           origin[0], origin[1], origin[2]);
+    gn_text_print_line(to, "%-11s %u", "nodes", n.nodes);
+    gn_text_print_line(to, "%-11s %u in %u batches, %u of them instances", "items", n.items,
+                       n.batches, s->instance_count);
+    gn_text_print_line(to, "%-11s %u geometries, %u vertices, %llu triangles in all items",
+                       "meshes", n.geometries, n.vertices, (unsigned long long)n.triangles);
     if (s->deformation.width > 0)
-        print_line(to, "%-11s %u skins, %u joints, %u morph targets, %.2f MB of deltas", "posed",
-                   s->deformation.skin_count, s->deformation.joint_count,
-                   s->deformation.weight_count, GN_MB(gn_scene_deformation_bytes(s)));
-    print_line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided", "materials",
-               k.all, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK], k.alpha[GN_ALPHA_BLEND],
-               k.unlit, k.double_sided);
+        gn_text_print_line(to, "%-11s %u skins, %u joints, %u morph targets, %.2f MB of deltas",
+                           "posed", s->deformation.skin_count, s->deformation.joint_count,
+                           s->deformation.weight_count, GN_MB(gn_scene_deformation_bytes(s)));
+    gn_text_print_line(to, "%-11s %u: %u opaque, %u mask, %u blend; %u unlit, %u double-sided",
+                       "materials", k.all, k.alpha[GN_ALPHA_OPAQUE], k.alpha[GN_ALPHA_MASK],
+                       k.alpha[GN_ALPHA_BLEND], k.unlit, k.double_sided);
     if (s->added.floor)
-        print_line(to, "%-11s unseen, for shadows (made: the file has none)", "floor");
-    if (s->missing && s->missing[0]) print_line(to, "%-11s %s", "missing", s->missing);
+        gn_text_print_line(to, "%-11s unseen, for shadows (made: the file has none)", "floor");
+    if (s->missing && s->missing[0]) gn_text_print_line(to, "%-11s %s", "missing", s->missing);
     const float *colors[] = {s->environment.sky, s->environment.ground, s->environment.background};
     static const char *const names[] = {"sky", "ground", "background"};
     for (int i = 0; i < 3; i++)
-        print_line(to, "%-11s %.3g %.3g %.3g", names[i], (double)colors[i][0], (double)colors[i][1],
-                   (double)colors[i][2]);
+        gn_text_print_line(to, "%-11s %.3g %.3g %.3g", names[i], (double)colors[i][0],
+                           (double)colors[i][1], (double)colors[i][2]);
 }
 
 static void print_cost(const struct gn_inspection *in, FILE *to) {
@@ -200,38 +192,40 @@ static void print_cost(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene_cost *c = &in->cost;
     fprintf(to, "\nCost at %dx%d through the first camera\n", GN_INSPECT_WIDTH_PX,
             GN_INSPECT_HEIGHT_PX);
-    print_line(to, "%-11s %u passes, %u draw calls, %llu triangles; %u items out of sight",
-               "picture", c->passes, c->draws, (unsigned long long)c->triangles, c->culled);
-    print_line(to, "%-11s %u passes, %u draw calls, %llu triangles, when something moves",
-               "shadows", c->shadow_passes, c->shadow_draws,
-               (unsigned long long)c->shadow_triangles);
-    print_line(to, "%-11s %u", "programs", c->programs);
-    print_line(to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
-               "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
-               GN_MB(c->map_bytes), GN_MB(c->target_bytes));
-    print_line(to, "%-11s %.2f MB, while it is loaded up to %.2f MB", "memory",
-               GN_MB(memory->bytes), GN_MB(memory->loading_bytes));
-    if (in->limits[0]) print_line(to, "%-11s %s", "limits", in->limits);
+    gn_text_print_line(to, "%-11s %u passes, %u draw calls, %llu triangles; %u items out of sight",
+                       "picture", c->passes, c->draws, (unsigned long long)c->triangles, c->culled);
+    gn_text_print_line(to, "%-11s %u passes, %u draw calls, %llu triangles, when something moves",
+                       "shadows", c->shadow_passes, c->shadow_draws,
+                       (unsigned long long)c->shadow_triangles);
+    gn_text_print_line(to, "%-11s %u", "programs", c->programs);
+    gn_text_print_line(
+        to, "%-11s %.2f MB vertices, %.2f indices, %.2f textures, %.2f maps, %.2f picture",
+        "GPU memory", GN_MB(c->vertex_bytes), GN_MB(c->index_bytes), GN_MB(c->texture_bytes),
+        GN_MB(c->map_bytes), GN_MB(c->target_bytes));
+    gn_text_print_line(to, "%-11s %.2f MB, while it is loaded up to %.2f MB", "memory",
+                       GN_MB(memory->bytes), GN_MB(memory->loading_bytes));
+    if (in->limits[0]) gn_text_print_line(to, "%-11s %s", "limits", in->limits);
 }
 
 static void print_problems(const struct gn_inspection *in, FILE *to) {
     const int warnings = in->warnings ? in->warnings->count : 0;
     fprintf(to, "\nProblems\n");
-    if (!warnings && !in->advice.count) print_line(to, "nothing");
-    for (int i = 0; i < warnings; i++) print_line(to, "- %s", in->warnings->text[i]);
+    if (!warnings && !in->advice.count) gn_text_print_line(to, "nothing");
+    for (int i = 0; i < warnings; i++) gn_text_print_line(to, "- %s", in->warnings->text[i]);
     if (warnings && in->warnings->dropped)
-        print_line(to, "- and %d more like these", in->warnings->dropped);
+        gn_text_print_line(to, "- and %d more like these", in->warnings->dropped);
     for (uint32_t i = 0; i < in->advice.count; i++) {
-        print_line(to, "- %s", in->advice.items[i].what);
-        print_line(to, "  cure: %s", in->advice.items[i].cure);
+        gn_text_print_line(to, "- %s", in->advice.items[i].what);
+        gn_text_print_line(to, "  cure: %s", in->advice.items[i].cure);
     }
-    if (in->advice.dropped) print_line(to, "- and %u more like these", in->advice.dropped);
+    if (in->advice.dropped) gn_text_print_line(to, "- and %u more like these", in->advice.dropped);
 }
 
 void gn_inspect_print(const struct gn_inspection *in, FILE *to) {
     print_scene(in, to);
     print_lists(in, to);
     print_cost(in, to);
+    if (in->time) gn_inspect_time_print(in->time, to);
     print_problems(in, to);
 }
 
@@ -361,6 +355,7 @@ bool gn_inspect_print_json(const struct gn_inspection *in, FILE *to, struct gn_e
         "memory_bytes", gn_json_make_count(s->memory.bytes), "loading_bytes",
         gn_json_make_count(s->memory.loading_bytes));
     json_object_set_new(all, "cost", cost);
+    if (in->time) json_object_set_new(all, "time", gn_inspect_time_json(in->time));
     json_object_set_new(all, "limits", gn_json_make_text(in->limits));
     json_object_set_new(all, "missing", gn_json_make_text(s->missing));
 

@@ -50,6 +50,15 @@ static char *write_escape(char *to, const unsigned char *c, size_t length) {
     return to + snprintf(to, ESCAPE_BYTES + 1, "\\u%04x", code);
 }
 
+void gn_text_print_line(FILE *to, const char *format, ...) {
+    char text[512];
+    va_list args;
+    va_start(args, format);
+    gn_text_vformat(text, sizeof text, format, args);
+    va_end(args);
+    fprintf(to, "  %s\n", text);
+}
+
 void gn_text_add(char *out, size_t size, const char *format, ...) {
     const size_t used = strlen(out);
     va_list args;

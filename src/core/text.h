@@ -20,6 +20,10 @@ void gn_text_format(char *out, size_t size, const char *format, ...)
  * bidirectional controls. */
 void gn_text_print(const char *text, FILE *to);
 
+/* Prints a line of a report, indented by two; as gn_text_format() makes it, of 511 bytes at most.
+ */
+void gn_text_print_line(FILE *to, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* Appends to the text in out, of size bytes with the ending zero; what does not fit is cut. */
 void gn_text_add(char *out, size_t size, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -16,7 +16,7 @@ GN_COMMAND(BENCH, bench, .name = "bench", .usage = "bench [OPTION..] [SCENE..]",
            .examples = {"gnomon bench scene.glb --shadow pcf,cone,pcss", "gnomon bench scene.glb --frames 200 --json"},
            .most = GN_SCENES_MAX, .takes = "at most 16 scenes")
 GN_COMMAND(INSPECT, inspect, .name = "inspect", .usage = "inspect [OPTION..] [SCENE]", .what = "lists a scene's contents, cost and problems",
-           .examples = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --json"},
+           .examples = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --for pi4 --size 1920x1080"},
            .most = 1, .takes = "only one scene")
 GN_COMMAND(DOCTOR, doctor, .name = "doctor", .usage = "doctor [OPTION..]", .what = "tests this machine and says how to fix problems",
            .examples = {"gnomon doctor", "gnomon doctor --self-test"},

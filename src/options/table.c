@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cost/gpu.h"
 #include "display/display.h"
 #include "frame/frame.h"
 #include "input/input.h"
@@ -21,6 +22,11 @@ static const struct gn_choice backends[] = {{"auto", 0},
                                             GN_DISPLAY_TABLE(X)
 #undef X
                                                 {0}};
+static const struct gn_choice gpus[] = {{"none", 0},
+#define X(NAME, name, ...) {name, 1 + GN_COST_##NAME},
+                                        GN_COST_GPUS(X)
+#undef X
+                                            {0}};
 static const struct gn_choice map_formats[] = {
     {"auto", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE)},
     {"depth", GN_MAP_FORMAT(GN_ENCODING_DEPTH, GN_MOMENTS_NONE)},

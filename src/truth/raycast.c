@@ -126,7 +126,7 @@ static double texel_alpha(const struct gn_scene *scene, const struct gn_texture 
            255.0;
 }
 
-static double sample_alpha(const struct gn_scene *scene, const struct gn_texture *texture, double u,
+double gn_ray_sample_alpha(const struct gn_scene *scene, const struct gn_texture *texture, double u,
                            double v) {
     const struct gn_image *image = &scene->pictures.images[texture->image];
     double x = u * image->width_px, y = v * image->height_px;
@@ -165,8 +165,8 @@ static double alpha_at(const struct gn_raycast *rays, const struct gn_bvh_triang
         v += weight[c] * set[2 * (size_t)corner[c] + 1];
     }
     const float *m = ref->uv_from_uv;
-    return alpha * sample_alpha(scene, &scene->pictures.textures[ref->texture],
-                                m[0] * u + m[2] * v + m[4], m[1] * u + m[3] * v + m[5]);
+    return alpha * gn_ray_sample_alpha(scene, &scene->pictures.textures[ref->texture],
+                                       m[0] * u + m[2] * v + m[4], m[1] * u + m[3] * v + m[5]);
 }
 
 static bool is_hole(const struct gn_raycast *rays, const struct gn_bvh_triangle *t,

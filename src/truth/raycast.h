@@ -41,6 +41,9 @@ void gn_raycast_init(struct gn_raycast *rays, const struct gn_scene *scene,
 void gn_raycast_finish(struct gn_raycast *rays);
 /* What gn_raycast_init() takes at most for a scene. */
 uint64_t gn_raycast_bytes(const struct gn_scene *scene);
+/* Alpha of a texture at level 0, 0..1, as the rules above have it. */
+double gn_ray_sample_alpha(const struct gn_scene *scene, const struct gn_texture *texture, double u,
+                           double v);
 bool gn_raycast_casts(const struct gn_bvh_triangle *triangle); /* one of rays->bvh.triangles */
 /* The same where the hit is in no hole: a gn_bvh_accept whose context are the rays. */
 bool gn_raycast_blocks(const void *rays, const struct gn_bvh_triangle *triangle,

@@ -186,7 +186,7 @@ static void wrong_words_are_explained(void **state) {
     assert_wrong("render --sise 1x1", "did you mean --size?");
     assert_wrong("render --siz", "did you mean --size?");
     assert_wrong("render --quaternion", "unknown option --quaternion");
-    assert_wrong("--foo", "unknown option --foo; --help lists the options");
+    assert_wrong("--quux", "unknown option --quux; --help lists the options");
     assert_wrong("hlep", "did you mean help?");
     assert_wrong("render --shadow pfc", "; did you mean pcf?");
     assert_wrong("bench --shadow hard,msn", "; did you mean msm?");
@@ -197,8 +197,8 @@ static void wrong_words_are_explained(void **state) {
     assert_wrong("show --check --here", "--check needs a value: FILE");
     assert_wrong("render --out --size=64x64", "--out needs a value: FILE");
     assert_wrong("render --plan=yes", "--plan takes no value");
-    assert_wrong("inspect --map 64",
-                 "--map does not go with inspect; it goes with show, render, bench");
+    assert_wrong("inspect --cascades 2",
+                 "--cascades does not go with inspect; it goes with show, render, bench");
     assert_wrong("--json", "it goes with bench, inspect, doctor");
     assert_wrong("render a.glb b.glb", "b.glb");
     assert_wrong("a.glb b.glb", "b.glb");
