@@ -5,7 +5,7 @@
 #include "cost/program.h"
 
 /* fit.c: the words of a program's name, and what each costs. */
-enum { GN_COST_WORDS_MAX = 64, GN_COST_FIT_MAX = 192 };
+enum { GN_COST_WORDS_MAX = 64, GN_COST_FIT_MAX = 320 };
 struct gn_cost_words { /* of a name: indices into a vocabulary, each as often as it occurs */
     int at[GN_COST_WORDS_MAX], count;
 };

@@ -102,6 +102,19 @@ static double usual_cost(const char *word, int figure) {
                : 0;
 }
 
+/* What is fitted: all words, but of fetches only those of techniques, maps and steps, which are
+ * written small. A feature reads what usual_cost() says. */
+static struct gn_cost_words words_to_fit(const struct gn_cost_table *table,
+                                         const struct gn_cost_words *all, int figure) {
+    struct gn_cost_words words = {.count = 0};
+    for (int i = 0; i < all->count; i++) {
+        const char first = table->vocabulary.words[all->at[i]][0];
+        if (figure != FETCHES || (first >= 'a' && first <= 'z'))
+            words.at[words.count++] = all->at[i];
+    }
+    return words;
+}
+
 struct kind { /* the rows of a program's kind that know a figure */
     const struct row **rows;
     double weights[GN_COST_FIT_MAX + 1];
@@ -118,7 +131,7 @@ static void fit_kind(const struct gn_cost_table *table, const char *name, int wi
     for (int i = 0; i < table->count; i++) {
         const struct row *row = &table->rows[i];
         if (i == without || !is_of_kind(row, name) || row->figures[figure] < 0) continue;
-        words[kind->count] = row->words;
+        words[kind->count] = words_to_fit(table, &row->words, figure);
         y[kind->count] = row->figures[figure];
         for (int w = 0; w < row->words.count; w++)
             y[kind->count] -= usual_cost(table->vocabulary.words[row->words.at[w]], figure);

@@ -61,6 +61,31 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* Fetches of programs as scenes have them: a texture each, and those of the technique; dear ones of
+ * other techniques change nothing. */
+static void test_fetches(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        double fetches;
+    } wanted[] = {
+        {"lit SPECULAR|HEMISPHERE, DIRECTIONAL pcf depth", 4},
+        {"lit BASE_TEXTURE|NORMAL_TEXTURE|SPECULAR|HEMISPHERE, DIRECTIONAL pcf depth cascades", 6},
+        {"lit EMISSIVE_TEXTURE|EMISSIVE|HEMISPHERE, POINT pcf depth", 5},
+        {"lit BASE_TEXTURE|ROUGHNESS_TEXTURE|OCCLUSION_TEXTURE|NORMAL_TEXTURE|SPECULAR|METAL|"
+         "TONE_NEUTRAL|ENVIRONMENT|ENVIRONMENT_DIFFUSE|OCCLUDED, DIRECTIONAL cone rg16f",
+         20},
+    };
+    struct gn_cost_table *table =
+        gn_cost_table_create((const char *)gn_embedded_find("programs.cost")->data, "pi4");
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        const double fetches = find(table, wanted[i].name).fetches;
+        if (fabs(fetches - wanted[i].fetches) > 0.75)
+            fail_msg("%s: %g fetches, not %g", wanted[i].name, fetches, wanted[i].fetches);
+    }
+    gn_cost_table_destroy(table);
+}
+
 /* The embedded table has all GPUs; each lit program, estimated by the others, is near what it is.
  */
 static void test_embedded(void **state) {
@@ -93,6 +118,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known),
         cmocka_unit_test(test_estimated),
+        cmocka_unit_test(test_fetches),
         cmocka_unit_test(test_embedded),
     };
     return RUN(tests);
