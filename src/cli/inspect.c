@@ -71,6 +71,7 @@ static bool print_with_time(struct gn_inspection *in, struct gn_scene *scene,
                     gn_inspect_time_build(&time, &stage, gpu, NULL, err);
     in->time = &time;
     const bool printed = ok && print(in, warnings, err);
+    in->time = NULL;
     gn_inspect_time_finish(&time);
     gn_stage_close(&stage);
     return printed;
