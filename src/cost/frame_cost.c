@@ -1,6 +1,7 @@
 #include "cost/frame_cost.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -121,14 +122,9 @@ static double draw_ms(const struct gn_frame_cost *cost, const struct gn_pass *pa
 static void leave_light_out(const char *name, uint32_t light, char out[GN_PROGRAM_NAME]) {
     const char *at = strstr(name, ", ");
     for (; at && light > 0; light--) at = strstr(at + 2, ", ");
-    memset(out, 0, GN_PROGRAM_NAME);
-    if (!at) {
-        memcpy(out, name, strlen(name));
-        return;
-    }
-    const char *rest = strstr(at + 2, ", ");
-    memcpy(out, name, (size_t)(at - name));
-    if (rest) memcpy(out + (at - name), rest, strlen(rest));
+    const char *rest = at ? strstr(at + 2, ", ") : NULL;
+    snprintf(out, GN_PROGRAM_NAME, "%.*s%s", at ? (int)(at - name) : GN_PROGRAM_NAME, name,
+             rest ? rest : "");
 }
 
 /* What the lights of a program cost in its lanes: by how much it is dearer than without each. */

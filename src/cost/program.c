@@ -126,7 +126,7 @@ static void fit_kind(const struct gn_cost_table *table, const char *name, int wi
     const size_t room = (size_t)table->count + 1;
     struct gn_cost_words *words = gn_xalloc(room, sizeof *words);
     double *y = gn_xalloc(room, sizeof *y);
-    kind->rows = gn_xalloc(room, sizeof(*kind->rows));
+    kind->rows = gn_xalloc(room, sizeof(const struct row *));
     kind->count = 0;
     for (int i = 0; i < table->count; i++) {
         const struct row *row = &table->rows[i];
@@ -181,7 +181,7 @@ bool gn_cost_table_find(const struct gn_cost_table *table, const char *name, int
                                     .fetches_estimated = values[FETCHES] < 0};
     for (int figure = 0; figure < FIGURES; figure++) {
         if (values[figure] >= 0) continue;
-        struct kind kind;
+        struct kind kind = {0};
         fit_kind(table, name, without, figure, &kind);
         values[figure] = estimate(&kind, &words, table->vocabulary.count, figure, &nearest[figure]);
         free(kind.rows);
