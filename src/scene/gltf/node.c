@@ -65,7 +65,7 @@ static bool read_tree(struct tree *tree) {
 /* Follows the parents of each node; mark 1: on the current path, 2: known to reach a root. The
  * first node of a cycle becomes a root. */
 static void cut_cycles(struct tree *tree) {
-    for (size_t i = 0; i < tree->count; i++) {
+    for (size_t i = 0; tree->sources && i < tree->count; i++) {
         int32_t first = (int32_t)i, n = first;
         for (; first >= 0 && tree->sources[first].mark == 0; first = tree->sources[first].parent)
             tree->sources[first].mark = 1;
