@@ -57,6 +57,11 @@ uint32_t gn_picture_most_shrink(const struct gn_picture_file *file) {
     return has_rows(file) ? 0 : GN_SHRINK_MOST;
 }
 
+uint32_t gn_picture_cost(const struct gn_picture_file *file) {
+    const bool deep = file->kind == GN_FORMAT_PNG && gn_png_is_deep(file->data);
+    return deep || file->kind == GN_FORMAT_WEBP ? 2 : 1;
+}
+
 static bool is_whole(const struct gn_picture_file *file, const uint32_t to[2]) {
     return file->px[0] == to[0] && file->px[1] == to[1];
 }

@@ -22,6 +22,8 @@ struct gn_picture_file {
 bool gn_picture_size(struct gn_picture_file *file, struct gn_err *err);
 /* The largest shrink of read.h that helps its decoder: 0 where it reads by rows. */
 uint32_t gn_picture_most_shrink(const struct gn_picture_file *file);
+/* The time of decoding a texel: 1, or 2 where it takes about twice as long as others. */
+uint32_t gn_picture_cost(const struct gn_picture_file *file);
 /* Bytes that gn_picture_decode takes beside the pixels. */
 uint64_t gn_picture_work_bytes(const struct gn_picture_file *file, const uint32_t to[2],
                                uint32_t shrink);

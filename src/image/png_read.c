@@ -41,6 +41,8 @@ bool gn_png_has_alpha(const uint8_t *data, size_t size) {
     return data[COLOR_TYPE] & WITH_ALPHA;
 }
 
+bool gn_png_is_deep(const uint8_t *data) { return data[24] > 8; }
+
 bool gn_png_is_interlaced(const uint8_t *data) { return data[IHDR_END - 1] != 0; }
 
 /* libpng has two rows of up to 8 bytes a texel, and the tables of zlib. */

@@ -118,10 +118,12 @@ static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_
     const struct gn_gltf begin = *g;
     while (scene = load_once(g, data, size, &fit_px), fit_px > 0) {
         const struct gn_gltf_pictures over = g->pictures;
+        const uint64_t decode_work = g->decode_work; /* the time is spent */
         gn_scene_destroy(scene);
         *g = begin;
         g->limits.texture_px = fit_px;
         g->pictures.loads = over.loads + 1;
+        g->decode_work = decode_work;
         if (g->err) *g->err = (struct gn_err){0};
         if (g->warnings) *g->warnings = before;
         gn_warn(g->warnings,

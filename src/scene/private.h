@@ -204,7 +204,7 @@ struct gn_gltf {
     size_t misplaced; /* triangles that are not shown: positions that are not finite */
     uint64_t key_total;
     uint64_t decoded_bytes;  /* of the pictures in memory */
-    uint64_t decode_work;    /* of the pictures in memory; as gn_gltf_picture_work has it */
+    uint64_t decode_work;    /* of all that were decoded, in loads before this one, too */
     uint64_t damaged_work;   /* of those whose decoding failed */
     uint64_t closed_corners; /* of the geometries so far, tested for being closed or not */
     struct gn_scene *scene;

@@ -395,7 +395,7 @@ struct gn_scene_limits {
     uint64_t nodes;               /* 100000 */
     uint64_t instances;           /* 1000000 */
     uint64_t vertices;            /* 20000000 */
-    uint64_t texels;              /* 67108864 per picture (8192 x 8192), 16 times that in a file */
+    uint64_t texels;              /* 67108864 per picture (8192 x 8192), 10 times that in all */
     uint64_t keys;                /* 4000000 animation keys */
     uint64_t json_depth;          /* 512 */
     uint64_t seconds;             /* 60: processor time that the load takes, and time that the

@@ -55,7 +55,7 @@ static bool decode_image(struct gn_gltf *g, const struct gn_at *at, const struct
     struct gn_picture_need whole = need_of(&file, least, 0, &shrink);
     for (uint32_t i = 0; i < GN_HALVINGS; i++)
         whole.halved[i] = need_of(&file, least + 1 + i, 0, &shrink).decoding;
-    whole.work = gn_gltf_picture_work(file.px);
+    whole.work = gn_gltf_picture_work(file.px) * gn_picture_cost(&file);
     struct gn_picture_need need = need_of(&file, level, gn_gltf_picture_room(g), &shrink);
     need.work = whole.work;
     if (!gn_gltf_picture_fits(g, &need, &whole, err)) return false;

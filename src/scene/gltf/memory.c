@@ -56,7 +56,7 @@ char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
 /* Decoding takes time by texels, however small a picture is made, and by rows where these are
  * short: libpng visits each in up to seven passes. A row counts as so many texels more, and all
  * together are at most as many as in so many of the largest pictures. */
-enum { ROW_WORK = 512, LARGEST_PICTURES = 16 };
+enum { ROW_WORK = 256, LARGEST_PICTURES = 10 };
 
 enum {
     LOADS_MAX = 2,  /* with pictures too large, for their sake, then for that of the GPU */
