@@ -222,7 +222,7 @@ static bool unpack_row(struct unpacker *u, uint8_t *out, size_t bytes, struct gn
 bool gn_ktx2_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_picture_row *row,
                   void *user, struct gn_err *err) {
     struct gn_ktx2 k;
-    struct unpacker unpacker;
+    struct unpacker unpacker = {0};
     if (!open_pixels(data, size, &k, err)) return false;
     uint8_t *texels = malloc((size_t)4 * px[0]);
     bool done =
