@@ -225,9 +225,9 @@ bool gn_ktx2_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_pic
     struct unpacker unpacker = {0};
     if (!open_pixels(data, size, &k, err)) return false;
     uint8_t *texels = malloc((size_t)4 * px[0]);
-    bool done =
-        texels ? open_unpacker(&unpacker, data, &k, err) : gn_fail(err, "KTX2: out of memory");
-    const bool opened = done;
+    if (!texels) return gn_fail(err, "KTX2: out of memory");
+    const bool opened = open_unpacker(&unpacker, data, &k, err);
+    bool done = opened;
     for (uint32_t y = 0; done && y < px[1]; y++) {
         done = unpack_row(&unpacker, texels, (size_t)k.channels * px[0], err);
         if (!done) break;
@@ -235,7 +235,7 @@ bool gn_ktx2_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_pic
         row(user, texels);
     }
     if (opened && k.scheme == SCHEME_ZLIB) inflateEnd(&unpacker.zlib);
-    if (texels) free(unpacker.whole);
+    free(unpacker.whole);
     free(texels);
     return done;
 }
