@@ -65,6 +65,12 @@ if [ -n "$systemd" ]; then
     # shellcheck disable=SC1091
     cp "$(dirname "$build")/deb/${SUITE:-$(. /etc/os-release && echo "$VERSION_CODENAME")}"/gnomon{,-import}_*_amd64.deb "$out/debs/" || exit 1
 fi
+shared=$(sed -n 's/^# shared: //p' "$script") # of ../shared, where there is one
+if [ -n "$shared" ] && [ -d "${GNOMON_SHARED:-../shared}/$shared" ]; then
+    mkdir "$out/shared" && cp -R "${GNOMON_SHARED:-../shared}/$shared" "$out/shared/" && chmod -R u+w "$out/shared"
+elif [ -n "$shared" ]; then
+    skip "no ${GNOMON_SHARED:-../shared}/$shared"
+fi
 cp "$script" "$out/test.sh" || exit 1
 needs() { grep -E '^# (heads|kernel|systemd):' "$1"; }
 read -ra members < <(sed -n 's/^# tests: //p' "$script")
