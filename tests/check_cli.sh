@@ -44,6 +44,7 @@ expect 0 '' inspect --for pi4 --size 640x360
 grep -q '^Time on Raspberry Pi 4.* at 640x360 with 4 samples' "$folder/out" || complain 'inspect: the time on a board'
 expect 2 'gnomon: --for: "pi9" is not one of none, pi4, pi5, g31, g52, g610, a618, a660; did you mean pi4?' inspect --for pi9
 expect 2 '--size: inspect needs --for GPU with it' inspect --size 640x360
+expect 2 "--size: 16384x16384 is more than a board's GPU draws: at most 4096x4096" inspect --for pi4 --size 16384x16384
 expect 0 '' inspect --limit maps_mb=1
 grep -q 'shadow maps of [0-9]* MB exceed the limit maps_mb=1: they are reduced' "$folder/out" || complain 'inspect: maps over the limit'
 expect 0 '' inspect --limit maps_mb=100

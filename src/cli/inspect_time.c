@@ -143,7 +143,11 @@ bool gn_inspect_time_build(struct gn_inspect_time *time, struct gn_stage *stage,
                                  .max_texture_units = GN_SAMPLERS_MAX,
                                  .etc2 = true,
                                  .tiler = true};
+    const struct gn_size *px = &stage->settings->render.size;
     *time = (struct gn_inspect_time){0};
+    if (px->width_px > TEXTURE_PX || px->height_px > TEXTURE_PX)
+        return gn_fail_usage(err, "--size: %dx%d is more than a board's GPU draws: at most %dx%d",
+                             px->width_px, px->height_px, TEXTURE_PX, TEXTURE_PX);
     time->table = text ? gn_cost_table_create((const char *)text->data, gpu->name) : NULL;
     if (!time->table) return gn_fail(err, "this build knows no program of %s", gpu->name);
     struct gn_frame_opts opts = stage->shown.opts;

@@ -52,11 +52,11 @@ static void print_programs(const struct gn_frame_cost *cost, FILE *to) {
         if (!cost->known[i])
             gn_text_print_line(to, "  not known              %s", cost->names[i]);
         else
-            gn_text_print_line(to, "  %5.0f %5.1f %5.0f  %s %s", p->fragment, p->fetches, p->vertex,
-                               cost->names[i],
-                               p->estimated           ? "(estimated)"
-                               : p->fetches_estimated ? "(fetches estimated)"
-                                                      : "");
+            gn_text_print_line(to, "  %5.0f %5.1f %5.0f  %s%s", p->fragment, p->fetches, p->vertex,
+                               p->estimated           ? "(estimated) "
+                               : p->fetches_estimated ? "(fetches estimated) "
+                                                      : "",
+                               cost->names[i]);
         if (cost->known[i] && p->estimated)
             gn_text_print_line(to, "                       from %s", p->nearest);
     }

@@ -43,7 +43,8 @@ static double target_bytes(const struct gn_plan *plan, const struct gn_pass *pas
 static double read_bytes(const struct gn_plan *plan, const struct gn_draw *draw, uint64_t pixels) {
     const struct gn_program_key *key = &plan->programs[draw->program];
     const struct gn_scene *scene = plan->scene;
-    double bytes = 4.0 * (double)pixels * key->shadow_count;
+    const double maps = key->shadow_count + (key->kind == GN_PROGRAM_FLOOR);
+    double bytes = 4.0 * (double)pixels * maps;
     for (int slot = 0; draw->geometry != GN_NO_GEOMETRY && slot < GN_TEXTURE_SLOT_COUNT; slot++) {
         const int32_t texture = plan->materials[draw->material].textures[slot].texture;
         if (texture < 0 || !(key->features >> (GN_FEATURE_FIRST_TEXTURE + slot) & 1)) continue;
@@ -168,9 +169,15 @@ static int compare_shares(const void *a, const void *b) {
 
 /* ---- the frame ---- */
 
+/* Mali's compilers fold a read at a plain varying into the load of that varying, and do not count
+ * it: the one of the floor's map. */
 static void find_programs(struct gn_frame_cost *cost, const struct gn_cost_table *table) {
-    for (uint32_t i = 0; i < cost->plan->program_count; i++)
-        cost->known[i] = gn_cost_table_find(table, cost->names[i], -1, &cost->programs[i]);
+    for (uint32_t i = 0; i < cost->plan->program_count; i++) {
+        struct gn_program_cost *program = &cost->programs[i];
+        cost->known[i] = gn_cost_table_find(table, cost->names[i], -1, program);
+        if (cost->plan->programs[i].kind == GN_PROGRAM_FLOOR)
+            program->fetches = fmax(program->fetches, 1);
+    }
 }
 
 static void name_shares(struct gn_frame_cost *cost) {
