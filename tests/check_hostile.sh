@@ -224,10 +224,16 @@ for name in plain scale0 scale1e30 scale1e-30 scale1e38 inside zfar light1e-38 l
     draw --aov visibility "$folder/$name.gltf"
     [ "$got" = 0 ] || complain "$name: $said"
 done
-for value in NaN Infinity 1e999 1e39 '"x"' null; do
-    scene wrong "{\"mesh\": 0, \"translation\": [$value, 0, 0]}, {$lamp}"
-    expect 1 "$folder/wrong.gltf: " inspect "$folder/wrong.gltf"
-done
+# wrong VALUE STATUS TEXT: of a translation, what is said of it
+wrong() {
+    scene wrong "{\"mesh\": 0, \"translation\": [$1, 0, 0]}, {$lamp}"
+    expect "$2" '' inspect "$folder/wrong.gltf"
+    expect "$2" "$folder/wrong.gltf: $3" render --size 8x8 -o "$folder/a.png" "$folder/wrong.gltf"
+}
+for value in NaN Infinity; do wrong "$value" 1 'byte '; done # that is no JSON
+wrong 1e999 0 'nodes[0].translation[0]: 9e+307 or more is too large; ignored'
+wrong 1e39 0 'nodes[0].translation[0]: 1e+39 is too large; ignored'
+for value in '"x"' null; do wrong "$value" 0 'nodes[0].translation[0]: must be a number, is '; done
 scene none '{}, {}'
 expect 1 'the scene is empty' render --size 8x8 -o "$folder/a.png" "$folder/none.gltf"
 

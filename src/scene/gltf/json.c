@@ -208,8 +208,11 @@ uint64_t gn_at_uint(struct gn_gltf *g, const struct gn_at *up, const char *path,
 static bool read_float(struct gn_gltf *g, struct gn_at *at, float *out) {
     double value = 0;
     if (!check_type(g, at, json_is_number(at->json), "a number")) return false;
-    if (!gn_json_number(at->json, &value) || fabs(value) > (double)FLT_MAX)
-        return gn_gltf_fail(g, at, "%g is too large", json_number_value(at->json));
+    if (!gn_json_number(at->json, &value) || fabs(value) > (double)FLT_MAX) {
+        const double written = json_number_value(at->json);
+        const bool replaced = fabs(written) >= GN_JSON_TEXT_LARGEST;
+        return gn_gltf_fail(g, at, "%g%s is too large", written, replaced ? " or more" : "");
+    }
     *out = (float)value;
     return true;
 }

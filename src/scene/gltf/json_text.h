@@ -5,7 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A copy of the text (free() it), of the same length, in which numbers of 1e308 and more are 9e307
+#define GN_JSON_TEXT_LARGEST 9e307
+
+/* A copy of the text (free() it), of the same length, in which numbers of 1e308 and more are that
  * and \u0000 and single surrogates are U+FFFD; NULL if there is nothing to replace, or no memory
  * for it. Wrong JSON stays wrong. */
 char *gn_json_text_replace(const char *text, size_t size);
