@@ -42,6 +42,15 @@ cmp -s "$folder/note.png" "$folder/plain.png" && complain 'a caption that is not
 expect 0 'warning: shadow maps exceed the limit maps_mb=1: tiles of up to' render --size 64x64 --limit maps_mb=1 -o "$folder/plain.png"
 expect 0 '' inspect --for pi4 --size 640x360
 grep -q '^Time on Raspberry Pi 4.* at 640x360 with 4 samples' "$folder/out" || complain 'inspect: the time on a board'
+# a triangle on an unseen floor, which reads the texel of its shadow
+cat > "$folder/triangle.gltf" << 'END'
+{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+ "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+ "bufferViews": [{"buffer": 0, "byteLength": 36}],
+ "buffers": [{"byteLength": 36, "uri": "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}
+END
+expect 0 '' inspect --for pi4 --size 640x360 --floor 0 "$folder/triangle.gltf"
+grep -qE '^ *[0-9]+ +1\.0 +[0-9]+ +floor$' "$folder/out" || complain "inspect: fetches of the floor: $(grep floor "$folder/out")"
 expect 2 'gnomon: --for: "pi9" is not one of none, pi4, pi5, g31, g52, g610, a618, a660; did you mean pi4?' inspect --for pi9
 expect 2 '--size: inspect needs --for GPU with it' inspect --size 640x360
 expect 2 "--size: 16384x16384 is more than a board's GPU draws: at most 4096x4096" inspect --for pi4 --size 16384x16384
