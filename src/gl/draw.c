@@ -85,13 +85,10 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
 }
 
 void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
-                uint64_t constants_hash, uint32_t most_indices) {
+                uint64_t constants_hash, uint32_t first, uint32_t count) {
     struct gn_gl_program *program = gl->plan_programs.at[d->program];
     const struct gn_geometry *geometry =
         d->geometry == GN_NO_GEOMETRY ? NULL : &gl->scene.scene->geometries[d->geometry];
-    uint32_t count = d->vertex_count;
-    if (geometry)
-        count = geometry->index_count < most_indices ? geometry->index_count : most_indices;
     gn_gl_use_program(gl, program->name);
     if (program->constants_hash != constants_hash && program->u_pass >= 0) {
         program->constants_hash = constants_hash;
@@ -115,13 +112,13 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
     gn_gl_set_cull(gl, geometry ? d->cull : GN_CULL_NONE, geometry && d->mirrored);
     gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
     if (geometry) {
-        const size_t first = geometry->first_index * gl->scene.index_size;
+        const size_t at = (geometry->first_index + first) * gl->scene.index_size;
         GL(gl, DrawElementsInstanced)
-        (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)first,
+        (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)at,
          (GLsizei)d->instance_count);
     } else {
         GL(gl, DrawArraysInstanced)
-        (GL_TRIANGLES, 0, (GLsizei)count, (GLsizei)d->instance_count);
+        (GL_TRIANGLES, (GLint)first, (GLsizei)count, (GLsizei)d->instance_count);
     }
     gl->stats.draws++;
     gl->stats.shadow_draws += pass->kind != GN_PASS_PICTURE || pass->picture.only_stencil;

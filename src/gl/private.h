@@ -68,9 +68,26 @@ void gn_gl_depth_discard(struct gn_gl *gl, const struct gn_pass *pass);
 void gn_gl_output_resolve(struct gn_gl *gl);
 /* Binds what a pass reads besides material textures. */
 void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass);
-/* constants_hash: of pass->constants. most_indices: limit on the indices of a geometry. */
+/* constants_hash: of pass->constants. first, count: of the draw's indices, or bare vertices. */
 void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
-                uint64_t constants_hash, uint32_t most_indices);
+                uint64_t constants_hash, uint32_t first, uint32_t count);
+
+/* ---- a long frame in pieces (piece.c) ---- */
+
+enum { GN_GL_PACES = 4 };
+struct gn_gl_pieces {
+    gn_gl_pause *pause; /* NULL: frames are whole */
+    void *user;
+    const struct gn_scene *of;   /* what was learned is of this scene: */
+    double most_px[GN_GL_PACES]; /* a piece of a kind of pass */
+    double used;                 /* part of the piece that is being drawn */
+    uint64_t done, done_before;  /* pieces of all frames; before the last one */
+    int64_t begun_ns, run_ns;    /* that piece, and the run, began then */
+};
+void gn_gl_pieces_begin(struct gn_gl *gl, const struct gn_scene *scene); /* a frame begins */
+/* All of a draw. False: the pause ended the frame. */
+bool gn_gl_draw_in_pieces(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
+                          uint64_t constants_hash, struct gn_err *err);
 
 /* ---- running and reading (run.c, read.c) ---- */
 
@@ -141,6 +158,7 @@ struct gn_gl {
     struct gn_gl_stats stats;
     uint64_t objects_created;
     bool (*stop)(void); /* see gn_gl_opts */
+    struct gn_gl_pieces pieces;
 };
 
 #define GL(gl, name) ((gl)->calls++, (gl)->fn.name)

@@ -97,8 +97,8 @@ static enum gn_clear_area begin_clear(const struct gn_plan *plan, struct gn_gl_m
 
 /* Draws the points of a lamp that its mask lacks, from so many on. The depth buffer shows which
  * texels a point has darkened already. */
-static void draw_points(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
-                        uint32_t first) {
+static bool draw_points(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
+                        uint32_t first, struct gn_err *err) {
     static const float farthest = 1.0f;
     struct gn_pass point = *pass;
     point.constant_count = GN_POINT_CONSTANTS;
@@ -109,9 +109,11 @@ static void draw_points(struct gn_gl *gl, const struct gn_plan *plan, const stru
             gn_hash(GN_HASH_INIT, point.constants, GN_POINT_CONSTANTS * sizeof *point.constants);
         gn_gl_set_one_depth(gl, 1.0f - (float)(i + 1 - first) / (GN_LAMP_POINTS_MAX + 1));
         for (uint32_t k = 0; k < pass->draw_count; k++)
-            gn_gl_draw(gl, &point, &plan->draws[pass->first_draw + k], hash, UINT32_MAX);
+            if (!gn_gl_draw_in_pieces(gl, &point, &plan->draws[pass->first_draw + k], hash, err))
+                return false;
     }
     gn_gl_set_one_depth(gl, 0);
+    return true;
 }
 
 /* map: NULL for passes of the picture. points: that it has already, of the right content. */
@@ -127,10 +129,11 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     const bool first_time = gl->programs.made_at_run != gl->programs.made;
     if (pass->kind == GN_PASS_COPY) gn_gl_pages_copy(gl, pass);
     const bool by_points = pass->kind == GN_PASS_MAP && pass->map.point_count > 0;
-    if (by_points) draw_points(gl, plan, pass, points);
+    if (by_points && !draw_points(gl, plan, pass, points, err)) return false;
     for (uint32_t i = 0; i < pass->draw_count && !by_points; i++) {
         if (first_time && is_stopped(gl, err)) return false;
-        gn_gl_draw(gl, pass, &plan->draws[pass->first_draw + i], hash, UINT32_MAX);
+        if (!gn_gl_draw_in_pieces(gl, pass, &plan->draws[pass->first_draw + i], hash, err))
+            return false;
     }
     /* The first tile may have cleared the depth of later ones, which is needed until those are
      * drawn. */
@@ -198,6 +201,7 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     gn_gl_pose_upload(gl, plan);
     gn_gl_materials_update(gl, plan);
+    gn_gl_pieces_begin(gl, plan->scene);
     bool ok = true;
     if (pass_ms) gn_gl_wait(gl);
     for (uint32_t i = 0; ok && i < plan->pass_count; i++) {
@@ -263,7 +267,7 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
             if (d->program != program || (last && !has_other_textures(gl, p, last, d))) continue;
             struct gn_draw one = *d;
             one.instance_count = 1;
-            gn_gl_draw(gl, pass, &one, 0, 3);
+            gn_gl_draw(gl, pass, &one, 0, 0, 3);
             last = d;
             drawn++;
         }

@@ -27,6 +27,7 @@
     X(PFNGLBUFFERDATAPROC, BufferData)                                                             \
     X(PFNGLBUFFERSUBDATAPROC, BufferSubData)                                                       \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                                     \
+    X(PFNGLCLIENTWAITSYNCPROC, ClientWaitSync)                                                     \
     X(PFNGLCLEARPROC, Clear)                                                                       \
     X(PFNGLCLEARBUFFERFIPROC, ClearBufferfi)                                                       \
     X(PFNGLCLEARBUFFERFVPROC, ClearBufferfv)                                                       \
@@ -44,6 +45,7 @@
     X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)                                           \
     X(PFNGLDELETESAMPLERSPROC, DeleteSamplers)                                                     \
     X(PFNGLDELETESHADERPROC, DeleteShader)                                                         \
+    X(PFNGLDELETESYNCPROC, DeleteSync)                                                             \
     X(PFNGLDELETETEXTURESPROC, DeleteTextures)                                                     \
     X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)                                             \
     X(PFNGLDEPTHFUNCPROC, DepthFunc)                                                               \
@@ -57,6 +59,7 @@
     X(PFNGLDRAWELEMENTSINSTANCEDPROC, DrawElementsInstanced)                                       \
     X(PFNGLENABLEPROC, Enable)                                                                     \
     X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)                                   \
+    X(PFNGLFENCESYNCPROC, FenceSync)                                                               \
     X(PFNGLFINISHPROC, Finish)                                                                     \
     X(PFNGLFLUSHPROC, Flush)                                                                       \
     X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)                                   \

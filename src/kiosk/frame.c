@@ -6,7 +6,8 @@
 #include "kiosk/private.h"
 #include "stage/occlusion.h"
 
-#define ASK_NS (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
+#define ASK_NS  (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
+#define LONG_NS (GN_NS_PER_S / 4)  /* a frame that is drawn in pieces */
 
 bool gn_show_wants_frame(const struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
@@ -110,6 +111,13 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
            gn_gl_read_xrgb8888(s->stage.gl, screen->copy_to, screen->copy_stride, err);
 }
 
+/* While a long frame is drawn requests are answered, and what the parts do by timers is done. */
+static bool pause_frame(void *user, uint64_t pieces, int64_t run_ns, struct gn_err *err) {
+    struct gn_show *s = user;
+    gn_loop_step(s->loop, 0);
+    return gn_parts_pause(&s->parts, pieces, run_ns, err) && !s->ends;
+}
+
 /* A GPU that was reset may have lost its memory without an error from the driver: after a stalled
  * flip known values are drawn and read back. */
 static bool gpu_is_well(struct gn_show_screen *s) {
@@ -129,12 +137,14 @@ bool gn_show_frame(struct gn_show_screen *s, struct gn_err *err) {
     if (!gpu_is_well(s) && gn_display_lose(display, begun_ns)) return true;
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
     bool behind = false;
+    gn_gl_set_pause(s->stage.gl, pause_frame, s->show);
     const bool drawn = draw_frame(s, &behind, err);
     if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_loop_now_ns(s->show->loop))) {
         *err = (struct gn_err){0};
         return true;
     }
-    if (!drawn) return false;
+    if (!drawn && s->show->ends) *err = (struct gn_err){0}; /* asked for in a pause */
+    if (!drawn) return s->show->ends;
     const int64_t drawn_ns = gn_loop_now_ns(s->show->loop);
     s->changed = behind;
     if (!gn_display_present(display, drawn_ns, err)) return false;
@@ -150,5 +160,8 @@ bool gn_show_frame(struct gn_show_screen *s, struct gn_err *err) {
     }
     gn_parts_drawn(&s->show->parts, drawn_ns - begun_ns);
     s->ahead.alone = drawn_ns - begun_ns > 2 * s->stage.display.screen.period_ns;
+    const int64_t now_ns = gn_loop_now_ns(s->show->loop), took_ns = now_ns - begun_ns;
+    s->ahead.until_ns = now_ns + (took_ns < GN_NS_PER_S ? took_ns : GN_NS_PER_S);
+    if (took_ns > LONG_NS) gn_gl_frame_was_long(s->stage.gl);
     return true;
 }

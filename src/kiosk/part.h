@@ -80,6 +80,10 @@ struct gn_part {
     void (*add_frame)(void *part, struct gn_frame_opts *opts);
     void (*drawn)(void *part, int64_t draw_ns);
 
+    /* While a long frame is drawn, every few milliseconds; pieces and run_ns as gn_gl_pause has
+     * them. False and *err: ends the frame, and the kiosk with it. */
+    bool (*pause)(void *part, uint64_t pieces, int64_t run_ns, struct gn_err *err);
+
     /* Of the board, for the information page; "": nothing. */
     const char *(*board)(const void *part);
     /* Sets the values of its metrics, and returns what they are in; NULL: there are none now. */
@@ -149,6 +153,7 @@ int64_t gn_parts_due_ns(const struct gn_parts *parts); /* the earliest */
 bool gn_parts_want_frame(const struct gn_parts *parts);
 void gn_parts_add_frame(struct gn_parts *parts, struct gn_frame_opts *opts);
 void gn_parts_drawn(struct gn_parts *parts, int64_t draw_ns);
+bool gn_parts_pause(struct gn_parts *parts, uint64_t pieces, int64_t run_ns, struct gn_err *err);
 const char *gn_parts_board(const struct gn_parts *parts); /* the first */
 /* All metrics; brief: those of the reply to an action. */
 json_t *gn_parts_status(struct gn_parts *parts, bool brief);

@@ -98,6 +98,14 @@ void gn_parts_add_frame(struct gn_parts *p, struct gn_frame_opts *opts) {
 
 void gn_parts_drawn(struct gn_parts *p, int64_t draw_ns) { CALL_EACH(p, drawn, p->of[i], draw_ns); }
 
+bool gn_parts_pause(struct gn_parts *p, uint64_t pieces, int64_t run_ns, struct gn_err *err) {
+    bool ok = true;
+    for (int i = 0; ok && i < GN_PART_COUNT; i++)
+        if (p->is_open[i] && p->rows[i]->pause)
+            ok = p->rows[i]->pause(p->of[i], pieces, run_ns, err);
+    return ok;
+}
+
 /* ---- what they tell -------------------------------------------------------------------------- */
 
 const char *gn_parts_board(const struct gn_parts *p) {

@@ -40,12 +40,13 @@ struct gn_show_staged {         /* a scene that is to be shown next, or a reload
 };
 /* Work ahead: pieces that are done between frames. */
 struct gn_show_ahead {
-    int64_t due_ns; /* when the next piece is, if there is any */
-    bool idle;      /* there was none at the last attempt */
-    bool alone;     /* frames are slow: a piece is a step of its own, */
-    bool has_turn;  /* and this one is */
-    bool dropped;   /* memory is to be returned to the system */
-    bool keeps;     /* the programs of the mode that is shown are marked as such */
+    int64_t due_ns;   /* when the next piece is, if there is any */
+    bool idle;        /* there was none at the last attempt */
+    bool alone;       /* frames are slow: a piece is a step of its own, */
+    bool has_turn;    /* and this one is */
+    int64_t until_ns; /* after a slow frame work on what is waited for has all turns until then */
+    bool dropped;     /* memory is to be returned to the system */
+    bool keeps;       /* the programs of the mode that is shown are marked as such */
 };
 /* A fade begins with a kept picture. */
 struct gn_show_fade {

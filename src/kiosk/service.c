@@ -114,6 +114,13 @@ bool gn_service_step(struct gn_service *s, const struct gn_screen *screen, int64
     return false;
 }
 
+void gn_service_pause(struct gn_service *s, uint64_t pieces, int64_t now_ns) {
+    if (s->socket < 0 || s->every_ns == 0 || now_ns < s->next_ns || pieces == s->pieces) return;
+    notify(s, "WATCHDOG=1");
+    s->pieces = pieces;
+    s->next_ns = s->timer.due_ns = now_ns + s->every_ns;
+}
+
 void gn_service_close(struct gn_service *s) {
     if (s->socket < 0) return;
     notify(s, "STOPPING=1");
@@ -149,6 +156,13 @@ static void step_service(void *part) {
     *h->changed |= gn_service_step(&s->of, &h->display->screen, gn_loop_now_ns(h->loop));
 }
 
+static bool pause_service(void *part, uint64_t pieces, int64_t run_ns, struct gn_err *err) {
+    struct service *s = part;
+    (void)run_ns, (void)err;
+    gn_service_pause(&s->of, pieces, gn_loop_now_ns(s->host->loop));
+    return true;
+}
+
 static void close_service(void *part) { gn_service_close(&((struct service *)part)->of); }
 
 const struct gn_part gn_part_service = {
@@ -157,5 +171,6 @@ const struct gn_part gn_part_service = {
     .begin = begin_service,
     .add_screen = flip_in_time,
     .step = step_service,
+    .pause = pause_service,
     .close = close_service,
 };

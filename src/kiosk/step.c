@@ -61,7 +61,10 @@ bool gn_show_step_picture(struct gn_show_screen *s, struct gn_err *err) {
     gn_show_enter_set(s);
     gn_truth_step(s);
     gn_occluder_step(s->stage.occluder, gn_loop_now_ns(s->show->loop));
-    ahead->has_turn = ahead->alone && !ahead->has_turn && gn_show_has_work(s);
+    const bool waits = s->staged.loaded || gn_kiosk_waits(&s->kiosk);
+    ahead->has_turn =
+        ahead->alone && gn_show_has_work(s) &&
+        (!ahead->has_turn || (waits && gn_loop_now_ns(s->show->loop) < ahead->until_ns));
     if (gn_show_wants_frame(s) && !ahead->has_turn) {
         if (!gn_show_frame(s, err)) return false;
     } else if (ahead->has_turn ||

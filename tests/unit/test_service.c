@@ -120,6 +120,21 @@ static void test_fed_by_flips_alone(void **state) {
     gn_service_close(&service);
 }
 
+static void test_fed_by_pieces_of_a_frame(void **state) {
+    (void)state;
+    struct gn_service service;
+    struct gn_screen screen = {.counts.shown = 1};
+    open_it(&service);
+    gn_service_step(&service, &screen, 100 * S);
+    hear();
+    for (int64_t s = 100; s < 121; s++) gn_service_pause(&service, (uint64_t)s, s * S);
+    assert_string_equal(hear(), "WATCHDOG=1 WATCHDOG=1 WATCHDOG=1 WATCHDOG=1");
+    for (int64_t s = 121; s < 200; s++) gn_service_pause(&service, 120, s * S);
+    assert_string_equal(hear(), ""); /* the GPU hangs */
+    gn_service_close(&service);
+    gn_service_pause(&service, 121, 300 * S);
+}
+
 static void test_fed_while_it_sleeps(void **state) {
     (void)state;
     struct gn_service service;
@@ -372,6 +387,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_ready_before_the_first_frame, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_ready_when_it_waits_for_a_monitor, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_fed_by_flips_alone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_fed_by_pieces_of_a_frame, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_fed_while_it_sleeps, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_the_loop_wakes_up_for_the_watchdog, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_without_a_watchdog, set_up, tear_down),

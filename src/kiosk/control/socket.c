@@ -84,6 +84,12 @@ static void take_requests(void *part) {
         gn_show_take_request(c->host->show, &c->transport, r);
 }
 
+static bool answer_in_pause(void *part, uint64_t pieces, int64_t run_ns, struct gn_err *err) {
+    (void)pieces, (void)run_ns, (void)err;
+    take_requests(part);
+    return true;
+}
+
 static const void *control_status(void *part) {
     struct socket_part *c = part;
     if (!c->control) return NULL;
@@ -108,6 +114,7 @@ const struct gn_part gn_part_control = {
     .size = sizeof(struct socket_part),
     .open = open_control,
     .look = take_requests,
+    .pause = answer_in_pause,
     .status = control_status,
     GN_PART_METRICS(metrics),
     .close = close_control,
