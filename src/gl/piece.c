@@ -1,12 +1,12 @@
 /* A long frame in pieces: draws of so many pixels, then a fence, and while that is waited for the
- * owner's `pause`. A piece is as large as the last ones took time for: it doubles up to PIECE_NS,
+ * owner's `pause`. A piece is as large as the last ones took time for: it grows up to PIECE_NS,
  * so a frame that is short has none any more. */
 #include <math.h>
 
 #include "core/clock.h"
 #include "gl/private.h"
 
-#define PIECE_NS  (GN_NS_PER_S / 20)
+#define PIECE_NS  (GN_NS_PER_S / 10)
 #define POLL_NS   (GN_NS_PER_S / 200)
 /* The first piece: pixels, and what a corner of a triangle counts. */
 #define LEAST_PX  4e6
@@ -76,19 +76,20 @@ bool gn_gl_draw_in_pieces(struct gn_gl *gl, const struct gn_pass *pass, const st
     struct gn_gl_pieces *p = &gl->pieces;
     const int pace = pace_of(pass);
     const double each_px = p->pause ? pixels_of(gl, pass, d) : 0;
+    const uint32_t corners = d->geometry == GN_NO_GEOMETRY
+                                 ? d->vertex_count
+                                 : gl->scene.scene->geometries[d->geometry].index_count;
     struct gn_draw part = *d;
     for (uint32_t i = 0; i < d->instance_count; i += part.instance_count) {
-        const double each = p->pause ? each_px / p->most_px[pace] : 0, room = (1 - p->used) / each;
+        const double room = p->pause ? (1 - p->used) * p->most_px[pace] / each_px : INFINITY;
         const uint32_t left = d->instance_count - i;
         part.first_instance = d->first_instance + i;
         part.instance_count = room < left ? room > 1 ? (uint32_t)room : 1 : left;
-        /* an instance that is more than a piece by its triangles */
-        const uint32_t corners = d->geometry == GN_NO_GEOMETRY
-                                     ? d->vertex_count
-                                     : gl->scene.scene->geometries[d->geometry].index_count,
-                       step = each > 1 ? 3 * (uint32_t)ceil(corners / (3 * each)) : corners;
-        for (uint32_t first = 0; first < corners; first += step) {
-            const uint32_t count = corners - first < step ? corners - first : step;
+        /* one that is more than a piece by its triangles; pieces grow meanwhile */
+        for (uint32_t first = 0, count; first < corners; first += count) {
+            const double each = p->pause ? each_px / p->most_px[pace] : 0,
+                         most = each > 1 ? 3 * ceil(corners / (3 * each)) : corners;
+            count = most < corners - first ? (uint32_t)most : corners - first;
             gn_gl_draw(gl, pass, &part, constants_hash, first, count);
             p->used += each * part.instance_count * count / corners;
             if (p->used >= 1 && !end_piece(gl, pace, err)) return false;

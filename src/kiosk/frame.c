@@ -161,7 +161,10 @@ bool gn_show_frame(struct gn_show_screen *s, struct gn_err *err) {
     gn_parts_drawn(&s->show->parts, drawn_ns - begun_ns);
     s->ahead.alone = drawn_ns - begun_ns > 2 * s->stage.display.screen.period_ns;
     const int64_t now_ns = gn_loop_now_ns(s->show->loop), took_ns = now_ns - begun_ns;
-    s->ahead.until_ns = now_ns + (took_ns < GN_NS_PER_S ? took_ns : GN_NS_PER_S);
-    if (took_ns > LONG_NS) gn_gl_frame_was_long(s->stage.gl);
+    s->ahead.until_ns = 0;
+    if (took_ns > LONG_NS) {
+        s->ahead.until_ns = now_ns + (took_ns < GN_NS_PER_S ? took_ns : GN_NS_PER_S);
+        gn_gl_frame_was_long(s->stage.gl);
+    }
     return true;
 }

@@ -16,7 +16,7 @@
 #include "unit/gltf_maker.h"
 #include "unit/show_help.h"
 
-enum { LAYERS = 90, WIDTH = 640, HEIGHT = 360, PIXELS = WIDTH * HEIGHT, FEWEST = 4 };
+enum { LAYERS = 90, WIDTH = 1280, HEIGHT = 720, PIXELS = WIDTH * HEIGHT, FEWEST = 4 };
 
 static char folder[] = "/tmp/gnomon-pieces-XXXXXX", scene[80], ctl[80];
 
@@ -59,7 +59,7 @@ static void write_scene(bool of_one_mesh) {
 
 static struct gn_show *open_show(bool of_one_mesh) {
     write_scene(of_one_mesh);
-    return help_show((const char *const[]){"--size", "640x360", "--turntable", "30", "--socket",
+    return help_show((const char *const[]){"--size", "1280x720", "--turntable", "30", "--socket",
                                            ctl, scene, NULL});
 }
 
