@@ -48,7 +48,7 @@ static double pixels_of(const struct gn_gl *gl, const struct gn_pass *pass,
     if (d->geometry == GN_NO_GEOMETRY) return target_px;
     const struct gn_geometry *g = &gl->scene.scene->geometries[d->geometry];
     double layers = (double)fmaxf(fmaxf(g->layers[0], g->layers[1]), g->layers[2]);
-    if (layers == 0) layers = g->index_count / 3; /* posed ones may have an area */
+    if (layers == 0) layers = g->index_count / 3.0; /* posed ones may have an area */
     return layers * target_px + CORNER_PX * g->index_count;
 }
 

@@ -34,6 +34,8 @@ void gn_show_forget_work(struct gn_show_screen *s) {
 }
 
 void gn_show_drop_staged(struct gn_show_screen *s) {
+    s->staged.stale = s->pauses && s->staged.loaded;
+    if (s->pauses) return;
     if (s->stage.gl) gn_gl_stage(s->stage.gl, NULL);
     forget_upload(s);
     gn_loaded_drop(s->staged.loaded);
@@ -264,8 +266,9 @@ void gn_show_work(struct gn_show_screen *s) {
 static void take_loaded(void *user, int64_t now_ns) {
     struct gn_show *s = user;
     struct gn_show_screen *screen = &s->screen;
-    struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
     (void)now_ns;
+    if (screen->pauses) return; /* it is taken after that frame */
+    struct gn_loaded *loaded = gn_loader_take(s->scenes.loader);
     if (!loaded) return; /* not done, or cancelled */
     for (int i = 0; i < loaded->warnings.count; i++)
         gn_warn(s->warnings, "%s", loaded->warnings.text[i]);
@@ -349,7 +352,8 @@ void gn_show_advance(struct gn_show_screen *s) {
     struct gn_show_scenes *scenes = &s->show->scenes;
     const int scene = gn_kiosk_scene(&s->rules, &s->kiosk.wanted);
     const int loading = gn_loader_number(scenes->loader);
-    if (s->staged.loaded && s->staged.loaded->number != scene && !gn_show_reload_is_staged(s))
+    if (s->staged.stale ||
+        (s->staged.loaded && s->staged.loaded->number != scene && !gn_show_reload_is_staged(s)))
         gn_show_drop_staged(s);
     if (loading != GN_SHOW_RELOAD && (loading != scene || scene == s->scene))
         gn_loader_cancel(scenes->loader);

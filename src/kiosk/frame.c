@@ -114,8 +114,11 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
 /* While a long frame is drawn requests are answered, and what the parts do by timers is done. */
 static bool pause_frame(void *user, uint64_t pieces, int64_t run_ns, struct gn_err *err) {
     struct gn_show *s = user;
+    s->screen.pauses = true;
     gn_loop_step(s->loop, 0);
-    return gn_parts_pause(&s->parts, pieces, run_ns, err) && !s->ends;
+    const bool ok = gn_parts_pause(&s->parts, pieces, run_ns, err);
+    s->screen.pauses = false;
+    return ok && !s->ends;
 }
 
 /* A GPU that was reset may have lost its memory without an error from the driver: after a stalled
@@ -137,8 +140,11 @@ bool gn_show_frame(struct gn_show_screen *s, struct gn_err *err) {
     if (!gpu_is_well(s) && gn_display_lose(display, begun_ns)) return true;
     if (!gn_display_begin(display, begun_ns, err)) return !err->text[0];
     bool behind = false;
+    const bool had_changed = s->changed;
+    s->changed = false; /* what changes in a pause is for the next frame */
     gn_gl_set_pause(s->stage.gl, pause_frame, s->show);
     const bool drawn = draw_frame(s, &behind, err);
+    s->changed |= drawn ? behind : had_changed;
     if (gn_gl_is_lost(s->stage.gl) && gn_display_lose(display, gn_loop_now_ns(s->show->loop))) {
         *err = (struct gn_err){0};
         return true;
@@ -146,7 +152,6 @@ bool gn_show_frame(struct gn_show_screen *s, struct gn_err *err) {
     if (!drawn && s->show->ends) *err = (struct gn_err){0}; /* asked for in a pause */
     if (!drawn) return s->show->ends;
     const int64_t drawn_ns = gn_loop_now_ns(s->show->loop);
-    s->changed = behind;
     if (!gn_display_present(display, drawn_ns, err)) return false;
 
     /* latency of buttons */

@@ -36,6 +36,7 @@ struct gn_show_staged {         /* a scene that is to be shown next, or a reload
     struct gn_loaded *loaded;   /* NULL: there is none */
     struct gn_view view;        /* of it, for its programs; its pose once the upload has begun */
     bool whole;                 /* all of it is on the GPU */
+    bool stale;                 /* dropped in a pause: gone after that frame */
     struct gn_show_looks looks; /* of it; a reload's has one, at 0 */
 };
 /* Work ahead: pieces that are done between frames. */
@@ -76,6 +77,7 @@ struct gn_show_screen {
     struct gn_show_truth truth; /* while the split is on */
     struct gn_show_still still;
     bool changed; /* the next picture differs: draw it */
+    bool pauses;  /* a frame is being drawn: nothing may use its GL */
 };
 
 /* ---- step.c: the top ------------------------------------------------------------------------ */

@@ -163,22 +163,49 @@ static void requests_are_answered_while_a_frame_is_drawn(void **state) {
     assert_true(most >= 3);
 }
 
-/* An end that is asked for in a pause is no failure. */
-static void a_frame_ends_with_the_kiosk(void **state) {
-    (void)state;
-    struct gn_show *show = open_show(false);
+static void draw_long_frame(struct gn_show *show) {
     struct gn_err err = {0};
-    help_show_frames(show, 1);
-    show->ends = true;
     show->screen.stage.gl->pieces.of = NULL;
     while (!show->screen.stage.display.screen.may_draw) {
         usleep(1000);
         assert_true(gn_show_take_events(&show->screen, &err));
     }
-    const uint64_t before = show->counts.frames;
     assert_true(gn_show_frame(&show->screen, &err));
-    assert_int_equal(show->counts.frames, before);
     assert_string_equal(err.text, "");
+}
+
+static void change(void *user, int64_t now_ns) {
+    struct gn_show_screen *screen = user;
+    (void)now_ns;
+    assert_true(screen->pauses);
+    screen->changed = true;
+}
+
+/* What changes in a pause is drawn next; what is dropped in one may be what is being drawn, and
+ * goes after that frame; an end that is asked for in one is no failure. */
+static void a_pause_leaves_the_frame_alone(void **state) {
+    (void)state;
+    struct gn_show *show = open_show(false);
+    struct gn_show_screen *screen = &show->screen;
+    struct gn_timer timer = {.due_ns = 0, .call = change, .user = screen};
+    help_show_frames(show, 1);
+    for (int changes = 0; changes < 2; changes++) {
+        if (changes) gn_loop_add_timer(show->loop, &timer);
+        draw_long_frame(show);
+        assert_int_equal(screen->changed, changes);
+    }
+    screen->staged.loaded = gn_xalloc(1, sizeof *screen->staged.loaded);
+    screen->staged.loaded->number = screen->scene;
+    screen->pauses = true;
+    gn_show_drop_staged(screen);
+    screen->pauses = false;
+    assert_non_null(screen->staged.loaded);
+    gn_show_advance(screen);
+    assert_null(screen->staged.loaded);
+    show->ends = true;
+    const uint64_t before = show->counts.frames;
+    draw_long_frame(show);
+    assert_int_equal(show->counts.frames, before);
     gn_show_close(show);
 }
 
@@ -201,7 +228,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(pieces_make_the_same_picture),
         cmocka_unit_test(a_short_frame_is_whole),
         cmocka_unit_test(requests_are_answered_while_a_frame_is_drawn),
-        cmocka_unit_test(a_frame_ends_with_the_kiosk),
+        cmocka_unit_test(a_pause_leaves_the_frame_alone),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }
