@@ -187,8 +187,8 @@ LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plat
 BOOK    := watch room carousel foliage product architecture studio window
 SELFTEST := $(foreach s,box ball fence lattice tilt stack lamp,$(addprefix $(O)/selftest/$s,.glb .truth))
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
-           $(SELFTEST) $(LESSONS) $(O)/studio.env $(O)/programs.cost
-EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env .cost,$(suffix $f)),$f))
+           $(SELFTEST) $(LESSONS) $(O)/studio.env $(O)/programs.cost board/README.md board/use.md board/wall.md assets/SCENES.md src/shadow/README.md
+EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env .cost .md,$(suffix $f)),$f))
 
 # not out of a library: another one's dlclose would be found first
 KEEP    := $(if $(filter asan,$(CONFIG)),$(call OBJ,tests/unit/keep_modules.c))

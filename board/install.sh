@@ -34,7 +34,8 @@ END
 755 bin/gnomon-import $B/gnomon-import
 644 $share/man/man1/gnomon-import.1 board/gnomon-import.1
 END
-    for page in board/README.md board/use.md board/wall.md board/*/README.md; do
+    for page in board/README.md board/use.md board/wall.md board/*/README.md assets/SCENES.md src/options/README.md \
+        src/import/README.md src/shadow/README.md; do
         echo "644 $share/doc/gnomon/$page $page"
         [ ! -f "${page%README.md}kiosk.ini" ] || echo "644 $share/doc/gnomon/${page%README.md}kiosk.ini ${page%README.md}kiosk.ini"
     done
@@ -66,7 +67,8 @@ uninstall)
         rm -f "$DESTDIR$PREFIX/$target"
     done
     for folder in "$DESTDIR$PREFIX/$share"/doc/gnomon/board/* "$DESTDIR$PREFIX/$share"/doc/gnomon/board \
-        "$DESTDIR$PREFIX/$share"/doc/gnomon "$DESTDIR$PREFIX/$share"/gnomon "$DESTDIR$PREFIX"/lib/gnomon; do
+        "$DESTDIR$PREFIX/$share"/doc/gnomon/src/* "$DESTDIR$PREFIX/$share"/doc/gnomon/src \
+        "$DESTDIR$PREFIX/$share"/doc/gnomon/assets "$DESTDIR$PREFIX/$share"/doc/gnomon "$DESTDIR$PREFIX/$share"/gnomon "$DESTDIR$PREFIX"/lib/gnomon; do
         rmdir "$folder" 2> /dev/null || true
     done
     ;;

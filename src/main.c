@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/help.h"
+#include "cli/topic.h"
 #include "config.h"
 #include "core/file.h"
 #include "core/stop.h"
@@ -23,8 +24,10 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
     if (prints || !gn_commands[command].handles_signals) gn_stop_end_process();
     if (options->settings->run.version)
         puts("gnomon " GN_VERSION);
+    else if (options->settings->run.topic)
+        gn_topic_print(options->settings->run.topic - 1);
     else if (options->settings->run.help)
-        gn_help_print(stdout, command);
+        gn_help_print(stdout, command, options->settings->run.help_all);
     else if (options->settings->run.check)
         return gn_cli_check(options, warnings, err);
     else

@@ -19,7 +19,11 @@ grep -q '^gnomon [0-9]' "$folder/out" || complain 'the version'
 for command in '' $(commands_of); do
     # shellcheck disable=SC2086
     expect 0 '' $command --help
-    grep -q '^  .*--verbose' "$folder/out" || complain "$command --help"
+    grep -q -e '--help=all' "$folder/out" || complain "$command --help"
+    [ "$(wc -l < "$folder/out")" -le 50 ] || complain "$command --help: $(wc -l < "$folder/out") lines"
+    # shellcheck disable=SC2086
+    expect 0 '' $command --help=all
+    grep -q '^  .*--verbose' "$folder/out" || complain "$command --help=all"
 done
 
 for words in 'help' 'help render' 'version' '-V'; do
@@ -28,6 +32,14 @@ for words in 'help' 'help render' 'version' '-V'; do
 done
 grep -q '^gnomon [0-9]' "$folder/out" || complain '-V'
 expect 2 'did you mean render?' help rendr
+for topic in board=board/README.md exhibit=board/wall.md use=board/use.md scenes=assets/SCENES.md techniques=src/shadow/README.md; do
+    expect 0 '' help "${topic%%=*}"
+    cmp -s "$folder/out" "${topic#*=}" || complain "help ${topic%%=*} is not ${topic#*=}"
+    "$gnomon" --help | grep -q "^  gnomon help ${topic%%=*} " || complain "--help does not name ${topic%%=*}"
+done
+expect 2 'is neither a command nor a topic; did you mean board?' help bord
+expect 2 'the topics are board, exhibit' help quux
+expect 2 '"exhibit" is neither a command nor a file' exhibit
 expect 2 '-o: write -o VALUE or --out=VALUE' render -o=q.png
 [ ! -e =q.png ] || complain '-o=q.png wrote a file'
 expect 2 'unknown option --quux; --help lists the options' --quux

@@ -23,7 +23,7 @@ offers() {
 }
 
 for command in '' $(commands_of); do
-    options=$("$gnomon" $command --help | sed -nE 's/^(      |  -[a-zA-Z], )(--[a-z-]+).*/\2/p')
+    options=$("$gnomon" $command --help=all | sed -nE 's/^(      |  -[a-zA-Z], )(--[a-z-]+(=all)?).*/\2/p')
     offers "$options" $command --
     [ "$(wc -w <<< "$options")" -ge 4 ] || complain "options of $command"
 done
@@ -38,6 +38,7 @@ offers 'shadow shadow-strength shadow-specular' ctl set shadow
 offers 'smsm' ctl set shadow sm
 offers '' ctl status ''
 offers 'compare' help comp
+offers 'techniques' help tech
 offers 'acne' lesson acn
 offers 'maps_mb=' render --limit maps
 offers '' render --size ''
@@ -61,6 +62,7 @@ if command -v fish > /dev/null; then
     fish_offers 'gnomon render --shadow-st' '--shadow-strength'
     fish_offers 'gnomon doctor --shadow-st' ''
     fish_offers 'gnomon les' 'lesson'
+    fish_offers 'gnomon help tech' 'techniques'
     fish_offers 'gnomon ctl sta' 'status'
     fish_offers 'gnomon ctl set shadow-st' 'shadow-strength'
     fish_offers 'gnomon ctl --json screens' 'screenshot'

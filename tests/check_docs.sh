@@ -35,7 +35,7 @@ example 'option `--taps-fixed`' taps_fixed src ''
 # ---- options and goals ---------------------------------------------------------------------------
 for command in '' $(commands_of); do
     # shellcheck disable=SC2086
-    "$gnomon" $command --help
+    "$gnomon" $command --help=all
 done > "$folder/help"
 import=$(dirname "$gnomon")/gnomon-import
 options_of() { grep -oE -- '--[a-z][a-z-]+' "$1" | sort -u; }

@@ -34,6 +34,15 @@ done
 [ -x "$into/lib/gnomon/take" ] || complain 'gnomon-take'
 grep -q 'ENV{SYSTEMD_WANTS}+="gnomon-take@%k.service"' "$into/lib/udev/rules.d/90-gnomon.rules" || complain 'the rule for sticks'
 
+# links of the pages for boards lead to pages that are installed
+(cd "$into/share/doc/gnomon/board" && for page in *.md */*.md; do
+    grep -oE '\]\([^)]+\)' "$page" | sed 's/^](//; s/)$//; s/#.*//' | while read -r link; do
+        case $link in http*://* | '') continue ;; esac
+        [ -e "$(dirname "$page")/$link" ] || echo "$page: $link"
+    done
+done) > "$folder/out"
+[ ! -s "$folder/out" ] || complain "links that lead nowhere: $(cat "$folder/out")"
+
 cp assets/sundial.glb "$folder/scene.glb"
 sed 's/^;\(\[\|[a-z_]* =\)/\1/; s,/srv/scene.glb,scene.glb,' board/systemd/kiosk.ini > "$folder/kiosk.ini"
 ! grep -q '^;[a-z_]* =' "$folder/kiosk.ini" && grep -q '^file = scene.glb' "$folder/kiosk.ini" || complain 'the examples'

@@ -8,6 +8,7 @@
 #include "options/command.h"
 #include "options/lesson.h"
 #include "options/options.h"
+#include "options/topic.h"
 #include "options/value.h"
 #include "scene/scene.h"
 
@@ -90,6 +91,12 @@ static void list_commands(char *out) {
         add_word(out, gn_commands[i].name, strlen(gn_commands[i].name), "");
 }
 
+static void list_topics(char *out) {
+    out[0] = '\0';
+    for (const struct gn_topic *t = gn_topics; t->name; t++)
+        add_word(out, t->name, strlen(t->name), "");
+}
+
 /* ---- bash ------------------------------------------------------------------------------------ */
 
 /* --name, and its letter: "--out | -o" */
@@ -152,7 +159,7 @@ static const char bash_code[] =
     "    done\n"
     "    _gnomon_command \"$command\"\n"
     "    if [[ $command == help ]]; then\n"
-    "        words='@WORDS@'\n"
+    "        words='@WORDS@ @TOPICS@'\n"
     "    elif [[ $previous == -* && \" $flags \" != *\" $previous \"* && $previous != -[hv] ]]; "
     "then\n"
     "        _gnomon_values \"$previous\"\n"
@@ -190,16 +197,20 @@ static void print_files(const char *request) {
             printf("%s%s == %s", more++ ? " || " : "", request, gn_ctl_rows[i].name);
 }
 
-/* `code` with @KEYS@, @COMMANDS@ (a pattern), @WORDS@ and @FILES@ (whether `request`, a variable,
- * is a command of ctl that takes a file) filled in. */
+/* `code` with @KEYS@, @TOPICS@, @COMMANDS@ (a pattern), @WORDS@ and @FILES@ (whether `request`, a
+ * variable, is a command of ctl that takes a file) filled in. */
 static void print_code(const char *code, const char *request) {
-    char keys[TEXT], commands[TEXT];
+    char keys[TEXT], topics[TEXT], commands[TEXT];
     list_keys(keys);
+    list_topics(topics);
     list_commands(commands);
     for (; *code; code++) {
         if (strncmp(code, "@KEYS@", 6) == 0) {
             fputs(keys, stdout);
             code += 5;
+        } else if (strncmp(code, "@TOPICS@", 8) == 0) {
+            fputs(topics, stdout);
+            code += 7;
         } else if (strncmp(code, "@FILES@", 7) == 0) {
             print_files(request);
             code += 6;
@@ -324,7 +335,7 @@ static const char zsh_code[] =
     "_gnomon() {\n"
     "    local -a commands=(@WORDS@) found\n"
     "    if [[ ${words[2]} == help ]] && ((CURRENT == 3)); then\n"
-    "        _gnomon_commands\n"
+    "        _alternative 'commands:command:_gnomon_commands' 'topics:topic:(@TOPICS@)'\n"
     "        return\n"
     "    fi\n"
     "    found=(${words[2,CURRENT-1]:*commands})\n"
@@ -373,6 +384,7 @@ static const char fish_code[] =
     "end\n"
     "complete -c gnomon -n '__gnomon_in auto help' -f -a '@WORDS@'\n"
     "complete -c gnomon -n '__gnomon_in auto' -f -a 'help version'\n"
+    "complete -c gnomon -n '__gnomon_in help' -f -a '@TOPICS@'\n"
     "complete -c gnomon -n '__gnomon_in ctl doctor help version' -f\n"
     "complete -c gnomon -n '__gnomon_request 1 get set' -f -a '@KEYS@'";
 

@@ -94,7 +94,7 @@ static void print_text(const char *text) {
 static void print_synopsis(void) {
     fputs(".SH SYNOPSIS\n.nf\n", stdout);
     for (int i = 0; i < GN_COMMAND_COUNT; i++) print_line("gnomon ", gn_commands[i].usage, "\n");
-    fputs("gnomon help [COMMAND]\ngnomon version\n.fi\n", stdout);
+    fputs("gnomon help [COMMAND|TOPIC]\ngnomon version\n.fi\n", stdout);
 }
 
 static void print_commands(void) {
@@ -174,7 +174,8 @@ static void print_gnomon(void) {
         "Settings come from the default, the configuration file, a mode of it, an option and "
         "gnomon ctl set; each of these wins over those before it.\n");
     print_commands();
-    puts(".SH OPTIONS\n\\fBgnomon help COMMAND\\fP prints the options of one command.");
+    puts(".SH OPTIONS\n\\fBgnomon help COMMAND\\fP prints the options of one command that are used "
+         "most, \\fBgnomon COMMAND \\-\\-help=all\\fP all of them.");
     for (int i = 0; i < GN_OPTION_COUNT; i++)
         if (gn_option_rows[i].commands) print_option(&gn_option_rows[i]);
     print_control();

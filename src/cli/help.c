@@ -6,6 +6,7 @@
 #include "options/binding.h"
 #include "options/command.h"
 #include "options/section.h"
+#include "options/topic.h"
 #include "options/value.h"
 #include "options/viewer_keys.h"
 #include "scene/scene.h"
@@ -13,6 +14,7 @@
 
 #define COLUMN 26 /* where the phrases of --help begin */
 #define WIDTH  96
+#define FEW    15 /* options that fit a screen beside a command's examples */
 
 const struct gn_help_entry gn_help_exits[] = {
     {"0", "done; show and the window also after SIGTERM or SIGINT"},
@@ -93,6 +95,15 @@ static bool is_of_shadows(const struct gn_option_row *row) {
     return false;
 }
 
+static void print_option(FILE *to, const struct gn_option_row *row) {
+    char text[500], name[80], letter[8] = "    ";
+    if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
+    snprintf(name, sizeof name, "%s--%s%s%s", letter, row->name, row->value ? " " : "",
+             row->value ? row->value : "");
+    gn_help_phrase(row, text, sizeof text);
+    print_entry(to, name, text);
+}
+
 /* section NULL: options that the INI file does not have */
 static void print_group(FILE *to, const struct gn_section_row *section, bool shadows,
                         enum gn_command command) {
@@ -109,49 +120,57 @@ static void print_group(FILE *to, const struct gn_section_row *section, bool sha
         else if (!begun)
             fputs("\nother options:\n", to);
         begun = true;
-        char text[500], name[80], letter[8] = "    ";
-        if (row->letter) snprintf(letter, sizeof letter, "-%c, ", row->letter);
-        snprintf(name, sizeof name, "%s--%s%s%s", letter, row->name, row->value ? " " : "",
-                 row->value ? row->value : "");
-        gn_help_phrase(row, text, sizeof text);
-        print_entry(to, name, text);
+        print_option(to, row);
     }
+}
+
+/* Of the options of a command those that most people need; false: it has so few that all are
+ * printed. */
+static bool print_first(FILE *to, enum gn_command command) {
+    static const char *const names[] = {"out",    "size",      "shadow", "camera", "time",
+                                        "floor",  "turntable", "frames", "fps",    "check",
+                                        "config", "json",      "for"};
+    int count = 0;
+    for (int i = 0; i < GN_OPTION_COUNT; i++) count += gn_option_rows[i].commands >> command & 1;
+    if (count <= FEW) return false;
+    fprintf(to, "\noptions that are used most, of %d; --help=all prints all:\n", count);
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
+        const struct gn_option_row *row = gn_option_find(names[n], strlen(names[n]));
+        if (row->commands & 1u << command) print_option(to, row);
+    }
+    return true;
 }
 
 /* ---- --help -------------------------------------------------------------------------------- */
 
-void gn_help_print(FILE *to, enum gn_command command) {
-    char tag[60];
+static void print_usage(FILE *to, enum gn_command command) {
     if (command != GN_COMMAND_AUTO) {
         fprintf(to, "usage: gnomon %s\n\n  %s\n", gn_commands[command].usage,
                 gn_commands[command].what);
-    } else {
-        fputs("gnomon shows a 3-D scene with correct shadows on a screen, or writes it into a file."
-              "\n\nusage:\n",
-              to);
-        for (int i = 0; i < GN_COMMAND_COUNT; i++)
-            fprintf(to, "  gnomon %s\n      %s\n", gn_commands[i].usage, gn_commands[i].what);
-        fputs("  gnomon help [COMMAND]\n      prints the options of a command\n\n"
-              "SCENE is a .glb or .gltf file; without one, gnomon shows its default scene, a "
-              "sundial.\n"
-              ".obj, .fbx, .stl, .ply and .dae files are converted by gnomon-import.\n",
-              to);
+        return;
     }
-    fputs("\nexamples:\n", to);
-    for (int i = 0; i < GN_COMMAND_EXAMPLES; i++)
-        fprintf(to, "  %s\n", gn_commands[command].examples[i]);
-    if (command == GN_COMMAND_CTL) fputs("\ncommands:\n", to);
-    for (int i = 0; command == GN_COMMAND_CTL && i < GN_CTL_COUNT; i++) {
-        const struct gn_ctl_row *row = &gn_ctl_rows[i];
-        snprintf(tag, sizeof tag, "%s%s%s", row->name, row->words[0] ? " " : "", row->words);
-        print_entry(to, tag, row->what);
+    fputs(
+        "gnomon shows a 3-D scene with correct shadows on a screen, or writes it into a file.\n\n",
+        to);
+    for (int i = 0; i < GN_COMMAND_COUNT; i++) {
+        char tag[80];
+        snprintf(tag, sizeof tag, "gnomon %s", gn_commands[i].name ? gn_commands[i].name : "SCENE");
+        print_entry(to, tag, gn_commands[i].what);
     }
-    for (int place = 1; place <= GN_SECTION_COUNT; place++)
-        for (int i = 0; i < GN_SECTION_COUNT; i++)
-            for (int shadows = 0; shadows < 2 && gn_section_rows[i].place == place; shadows++)
-                print_group(to, &gn_section_rows[i], shadows, command);
-    print_group(to, NULL, false, command);
-    if (command != GN_COMMAND_AUTO && command != GN_COMMAND_SHOW) return;
+    print_entry(to, "gnomon help COMMAND", "prints the options of a command");
+    for (const struct gn_topic *t = gn_topics; t->name; t++) {
+        char tag[80];
+        snprintf(tag, sizeof tag, "gnomon help %s", t->name);
+        print_entry(to, tag, t->what);
+    }
+    fputs("\nSCENE is a .glb or .gltf file; without one, gnomon shows its default scene, a "
+          "sundial.\n"
+          ".obj, .fbx, .stl, .ply and .dae files are converted by gnomon-import.\n",
+          to);
+}
+
+static void print_keys(FILE *to) {
+    char tag[60];
     const char *action;
     fputs("\nin a window:\n", to);
     for (const struct gn_viewer_key *key = gn_viewer_keys; key->name; key++)
@@ -159,4 +178,25 @@ void gn_help_print(FILE *to, enum gn_command command) {
     fputs("\nkeys and GPIO lines, unless kiosk.ini has buttons of its own:\n", to);
     for (int i = 0; gn_help_default_button(i, tag, sizeof tag, &action); i++)
         print_entry(to, tag, action);
+}
+
+void gn_help_print(FILE *to, enum gn_command command, bool all) {
+    print_usage(to, command);
+    fputs("\nexamples:\n", to);
+    for (int i = 0; i < GN_COMMAND_EXAMPLES; i++)
+        fprintf(to, "  %s\n", gn_commands[command].examples[i]);
+    if (command == GN_COMMAND_CTL) fputs("\ncommands:\n", to);
+    for (int i = 0; command == GN_COMMAND_CTL && i < GN_CTL_COUNT; i++) {
+        const struct gn_ctl_row *row = &gn_ctl_rows[i];
+        char tag[60];
+        snprintf(tag, sizeof tag, "%s%s%s", row->name, row->words[0] ? " " : "", row->words);
+        print_entry(to, tag, row->what);
+    }
+    if (!all && print_first(to, command)) return;
+    for (int place = 1; place <= GN_SECTION_COUNT; place++)
+        for (int i = 0; i < GN_SECTION_COUNT; i++)
+            for (int shadows = 0; shadows < 2 && gn_section_rows[i].place == place; shadows++)
+                print_group(to, &gn_section_rows[i], shadows, command);
+    print_group(to, NULL, false, command);
+    if (command == GN_COMMAND_AUTO || command == GN_COMMAND_SHOW) print_keys(to);
 }

@@ -7,8 +7,9 @@
 
 #include "options/options.h"
 
-/* --help: of one command, or of all (GN_COMMAND_AUTO). At most 100 columns. */
-void gn_help_print(FILE *to, enum gn_command command);
+/* --help: of one command, or of all (GN_COMMAND_AUTO). At most 100 columns. all: every option;
+ * else, where there are many, those that are used most. */
+void gn_help_print(FILE *to, enum gn_command command, bool all);
 
 /* What an option does, its choices and its default: "antialiasing: 0, 2, 4 (default 0 samples)". */
 void gn_help_phrase(const struct gn_option_row *row, char *out, size_t size);

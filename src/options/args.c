@@ -10,6 +10,7 @@
 #include "options/content.h"
 #include "options/file.h"
 #include "options/lesson.h"
+#include "options/topic.h"
 
 struct flag {
     const struct gn_option_row *row;
@@ -24,6 +25,7 @@ struct args {
     int flag_count;
     const char *words[1 + GN_WORDS_MAX]; /* command, and what follows it; bare: a scene */
     int word_count;
+    int topic; /* of gn_topics; -1: none */
 };
 
 /* ---- splitting ----------------------------------------------------------------------------- */
@@ -47,9 +49,13 @@ static bool add_flag(struct args *args, const struct gn_option_row *row, const c
 }
 
 static bool add_long(struct args *args, const char *name, struct gn_err *err) {
-    const char *equals = strchr(name, '=');
-    size_t length = equals ? (size_t)(equals - name) : strlen(name);
-    const struct gn_option_row *row = gn_option_find(name, length);
+    size_t length = strlen(name);
+    const struct gn_option_row *row = gn_option_find(name, length); /* --help=all is whole */
+    const char *equals = row ? NULL : strchr(name, '=');
+    if (equals) {
+        length = (size_t)(equals - name);
+        row = gn_option_find(name, length);
+    }
     char label[40];
     if (!row) {
         struct gn_text_guess guess = {0};
@@ -105,21 +111,27 @@ static bool add_word(struct args *args, const char *word, struct gn_err *err) {
     return true;
 }
 
-static bool fail_command(const char *word, struct gn_err *err) {
+/* helps: it follows `help`, so it may be a topic, and is no file. */
+static bool fail_command(const char *word, bool helps, struct gn_err *err) {
     static const char *const others[] = {"help", "version"};
+    const char *other = helps ? "topic" : "file";
     struct gn_text_guess guess = {0};
-    char list[200] = "";
+    char list[200] = "", topics[100] = "";
     for (int i = GN_COMMAND_SHOW; i < GN_COMMAND_COUNT; i++) {
         gn_text_guess(&guess, word, gn_commands[i].name);
         gn_text_add(list, sizeof list, "%s, ", gn_commands[i].name);
     }
     for (int i = 0; i < 2; i++) gn_text_guess(&guess, word, others[i]);
+    for (const struct gn_topic *t = gn_topics; helps && t->name; t++) {
+        gn_text_guess(&guess, word, t->name);
+        gn_text_add(topics, sizeof topics, "%s%s", topics[0] ? ", " : "; the topics are ", t->name);
+    }
     if (guess.name)
-        return gn_fail_usage(err, "\"%.80s\" is neither a command nor a file; did you mean %s?",
-                             word, guess.name);
+        return gn_fail_usage(err, "\"%.80s\" is neither a command nor a %s; did you mean %s?",
+                             word, other, guess.name);
     return gn_fail_usage(err,
-                         "\"%.80s\" is neither a command nor a file; the commands are %s%s, %s",
-                         word, list, others[0], others[1]);
+                         "\"%.80s\" is neither a command nor a %s; the commands are %s%s, %s%s",
+                         word, other, list, others[0], others[1], topics);
 }
 
 static bool split_arguments(struct args *args, struct gn_err *err) {
@@ -139,12 +151,14 @@ static bool split_arguments(struct args *args, struct gn_err *err) {
             only_words = true;
     }
     if (!ok) return false;
-    /* `gnomon help [COMMAND]` is --help, `gnomon version` is --version */
+    /* `gnomon help [COMMAND|TOPIC]` is --help, `gnomon version` is --version */
     const char *word = args->word_count > 0 ? args->words[0] : "", *command = args->words[1];
     const bool is_help = strcmp(word, "help") == 0;
     if (!is_help && strcmp(word, "version") != 0) return true;
     if (command && !is_help) return gn_fail_usage(err, "unexpected argument \"%.80s\"", command);
-    if (command && command_of(command) == GN_COMMAND_AUTO) return fail_command(command, err);
+    args->topic = command ? gn_topic_find(command) : -1;
+    if (command && command_of(command) == GN_COMMAND_AUTO && args->topic < 0)
+        return fail_command(command, true, err);
     args->words[0] = command;
     args->words[1] = NULL;
     args->word_count--;
@@ -170,7 +184,7 @@ static bool choose_command(struct args *args, struct gn_err *err) {
     const int given = args->word_count - !bare;
     gn_options_run_as(args->options, (enum gn_command)(row - gn_commands));
     if (bare && first && !strpbrk(first, "./:") && access(first, F_OK) != 0)
-        return fail_command(first, err);
+        return fail_command(first, false, err);
     if (given > row->most) return fail_word(row, args->words[!bare + row->most], err);
     return given >= row->least || gn_fail_usage(err, "%s: expected %s", row->name, row->expects);
 }
@@ -284,14 +298,16 @@ static bool check_animation(const struct gn_settings *s, struct gn_warnings *war
 
 bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
                    struct gn_warnings *warnings, struct gn_err *err) {
-    struct args args = {.options = options, .argv = argv, .argc = argc, .at = 1};
+    struct args args = {.options = options, .argv = argv, .argc = argc, .at = 1, .topic = -1};
     size_t letters = 0; /* no argument makes more flags than it has letters */
     for (int i = 0; i < argc; i++) letters += strlen(argv[i]);
     args.flags = gn_xalloc(letters + 1, sizeof *args.flags);
     gn_options_init(options, GN_COMMAND_AUTO);
     bool ok = split_arguments(&args, err);
     struct gn_run_settings *run = &options->all[0].run;
-    run->help = ok && find_flag(&args, "help");
+    run->help_all = ok && find_flag(&args, "help=all");
+    run->help = ok && (run->help_all || find_flag(&args, "help"));
+    run->topic = ok ? args.topic + 1 : 0;
     run->version = ok && find_flag(&args, "version");
     if (run->help && args.words[0]) run->command = command_of(args.words[0]);
     if (ok && !run->help && !run->version) {

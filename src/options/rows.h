@@ -283,3 +283,5 @@ GN_OPTION(.name = "version", .letter = 'V', .kind = GN_KIND_FLAG,
           .help = "print the version", .commands = ANY, .offset = FIELD(run.version))
 GN_OPTION(.name = "help", .letter = 'h', .kind = GN_KIND_FLAG,
           .help = "print this; after a command, what that command takes", .commands = ANY, .offset = FIELD(run.help))
+GN_OPTION(.name = "help=all", .kind = GN_KIND_FLAG,
+          .help = "the same with all options", .commands = ANY, .offset = FIELD(run.help_all))

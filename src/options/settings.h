@@ -182,6 +182,7 @@ struct gn_run_settings { /* of this run of the program: flags only */
     enum gn_command command;
     const char *input_script;
     const char *config, *mode, *out;
+    int topic;           /* of help: of gn_topics, plus 1; 0: none */
     const char *check;   /* a configuration file that is only checked, or NULL */
     bool here;           /* check: on this machine, too */
     const char *caption; /* text on the picture, or NULL */
@@ -202,7 +203,7 @@ struct gn_run_settings { /* of this run of the program: flags only */
     bool rollback;                     /* of take */
     int on_gpu;                        /* of inspect --for: 1 + enum gn_cost_gpu_id, or 0 */
     bool csv, move_lights, move_casters; /* of bench */
-    bool plan, json, self_test, stats, verbose, version, help;
+    bool plan, json, self_test, stats, verbose, version, help, help_all;
 };
 struct gn_settings {
     const char *mode; /* the name of their mode, or NULL */

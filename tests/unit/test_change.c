@@ -279,7 +279,7 @@ static void help_lists_every_command(void **state) {
     size_t size;
     (void)state;
     FILE *to = open_memstream(&text, &size);
-    gn_help_print(to, GN_COMMAND_CTL);
+    gn_help_print(to, GN_COMMAND_CTL, false);
     fclose(to);
     for (int i = 0; i < GN_CTL_COUNT; i++) {
         char line[80];

@@ -322,11 +322,11 @@ static void options_of_the_display_are_taken(void **state) {
 
 /* ---- --help ---------------------------------------------------------------------------- */
 
-static char *help_of(enum gn_command command) {
+static char *help_of(enum gn_command command, bool all) {
     char *text = NULL;
     size_t size;
     FILE *to = open_memstream(&text, &size);
-    gn_help_print(to, command);
+    gn_help_print(to, command, all);
     fclose(to);
     return text;
 }
@@ -341,7 +341,7 @@ static bool has_flag(const char *text, const char *flag) {
 static void help_lists_what_the_parser_takes_and_nothing_else(void **state) {
     (void)state;
     for (int command = 0; command < GN_COMMAND_COUNT; command++) {
-        char *text = help_of(command);
+        char *text = help_of(command, true);
         for (int i = 0; i < GN_OPTION_COUNT; i++) {
             const struct gn_option_row *row = &gn_option_rows[i];
             const unsigned wanted = 1u << command;
@@ -389,7 +389,7 @@ static void a_default_is_printed_with_its_unit(void **state) {
 static void help_fits_a_hundred_columns(void **state) {
     (void)state;
     for (int command = 0; command < GN_COMMAND_COUNT; command++) {
-        char *text = help_of(command);
+        char *text = help_of(command, true);
         for (const char *at = text; *at; at += strcspn(at, "\n") + 1)
             assert_in_range(strcspn(at, "\n"), 0, 100);
         free(text);
