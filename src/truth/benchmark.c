@@ -15,6 +15,8 @@ const struct gn_benchmark_class_row gn_benchmark_classes[GN_BENCHMARK_CLASS_COUN
     [GN_BENCHMARK_FIELD] = {"field", 640, 480, false, GN_BENCHMARK_WRONG},
     [GN_BENCHMARK_COARSE] = {"coarse", 640, 480, false, GN_BENCHMARK_DARKENING},
     [GN_BENCHMARK_CONTACT] = {"contact", 640, 480, false, GN_BENCHMARK_GAP},
+    [GN_BENCHMARK_RODS] = {"rods", 640, 480, false, GN_BENCHMARK_GAP},
+    [GN_BENCHMARK_SCALED] = {"scaled", 640, 480, false, GN_BENCHMARK_GAP},
     [GN_BENCHMARK_SOFT] = {"soft", 480, 360, true, GN_BENCHMARK_PENUMBRA},
     [GN_BENCHMARK_THIN] = {"thin", 480, 360, true, GN_BENCHMARK_PENUMBRA},
 };

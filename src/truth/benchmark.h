@@ -10,6 +10,8 @@ enum gn_benchmark_class {
     GN_BENCHMARK_FIELD,   /* casters of all kinds on a ground, lit by a light without size */
     GN_BENCHMARK_COARSE,  /* coarse meshes with smooth normals, the same lights */
     GN_BENCHMARK_CONTACT, /* a box on a ground */
+    GN_BENCHMARK_RODS,    /* casters of 3 cm in the light of a spot 12 m away */
+    GN_BENCHMARK_SCALED,  /* boxes in nodes of mirrored, uneven scale */
     GN_BENCHMARK_SOFT,    /* penumbrae of a light with a size */
     GN_BENCHMARK_THIN,    /* thin blockers high above others */
     GN_BENCHMARK_CLASS_COUNT,

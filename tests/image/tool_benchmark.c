@@ -37,7 +37,8 @@ static const struct {
     const char *name;
     int first, last;
 } ranges[] = {{"field-sun", 0, 11},   {"field-spot", 12, 23},  {"field-point", 24, 29},
-              {"coarse-sun", 30, 32}, {"coarse-spot", 33, 35}, {"coarse-point", 36, 38}};
+              {"coarse-sun", 30, 32}, {"coarse-spot", 33, 35}, {"coarse-point", 36, 38},
+              {"rods-spot", 39, 41},  {"scaled-spot", 42, 44}};
 
 /* What is there already and the same stays: its truth is not made again. */
 static void copy(const char *from, const char *folder, const char *name) {
@@ -177,7 +178,7 @@ static void take_picture(const struct work *work, int index) {
 
 /* ---- the table ---- */
 
-enum { COLUMNS = 11 };
+enum { COLUMNS = 13 };
 static const struct {
     const char *head, *kind, *measure; /* NULL: as in the techniques page */
     bool on_page;
@@ -191,6 +192,8 @@ static const struct {
     {"penumbra", "soft", "penumbra", true},
     {"thin", "thin", "penumbra", false},
     {"contact gap", "contact", "gap_percent", false},
+    {"rods gap", "rods", "gap_percent", false},
+    {"scaled gap", "scaled", "gap_percent", false},
     {"tear", "soft", "tear_percent_px", false},
     {"grain", "soft", "grain_percent_px", false},
 };
