@@ -342,7 +342,7 @@ static void sigterm_ends_it_at_any_moment(void **state) {
             assert_int_equal(waitpid(pid, &status, WNOHANG), 0);
             usleep(100);
         }
-        const int64_t until_ns = gn_clock_monotonic_ns() + rand() % 3000 * 1000000;
+        const int64_t until_ns = gn_clock_monotonic_ns() + rand() % 3000 * INT64_C(1000000);
         while (gn_clock_monotonic_ns() < until_ns) {
             usleep(1000);
             if (rand() % 500 || !handles(pid, SIGHUP)) continue;
