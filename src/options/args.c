@@ -127,8 +127,8 @@ static bool fail_command(const char *word, bool helps, struct gn_err *err) {
         gn_text_add(topics, sizeof topics, "%s%s", topics[0] ? ", " : "; the topics are ", t->name);
     }
     if (guess.name)
-        return gn_fail_usage(err, "\"%.80s\" is neither a command nor a %s; did you mean %s?",
-                             word, other, guess.name);
+        return gn_fail_usage(err, "\"%.80s\" is neither a command nor a %s; did you mean %s?", word,
+                             other, guess.name);
     return gn_fail_usage(err,
                          "\"%.80s\" is neither a command nor a %s; the commands are %s%s, %s%s",
                          word, other, list, others[0], others[1], topics);
