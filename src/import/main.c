@@ -26,7 +26,7 @@ static const char help[] =
     "options:\n"
     "  -o, --output FILE      output file (MODEL's name with .glb, unless that file exists)\n"
     "      --up auto|y|z      which axis of the model is up (auto: what FBX and Collada files "
-    "say;\n"
+    "state;\n"
     "                         z for STL and PLY; y for OBJ)\n"
     "      --memory MB        memory limit (2048, at most half of the machine's)\n"
     "      --time S           time limit (60 seconds)\n"

@@ -18,10 +18,10 @@ GN_COMMAND(BENCH, bench, .name = "bench", .usage = "bench [OPTION..] [SCENE..]",
 GN_COMMAND(INSPECT, inspect, .name = "inspect", .usage = "inspect [OPTION..] [SCENE]", .what = "lists a scene's contents, cost and problems",
            .examples = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --for pi4 --size 1920x1080"},
            .most = 1, .takes = "only one scene")
-GN_COMMAND(DOCTOR, doctor, .name = "doctor", .usage = "doctor [OPTION..]", .what = "tests this machine and says how to fix problems",
+GN_COMMAND(DOCTOR, doctor, .name = "doctor", .usage = "doctor [OPTION..]", .what = "tests this machine and prints how to fix problems",
            .examples = {"gnomon doctor", "gnomon doctor --self-test"},
            .takes = "it takes no scene")
-GN_COMMAND(CTL, ctl, .name = "ctl", .usage = "ctl [OPTION..] COMMAND [WORD..]", .what = "talks to a running kiosk",
+GN_COMMAND(CTL, ctl, .name = "ctl", .usage = "ctl [OPTION..] COMMAND [WORD..]", .what = "sends a command to a running kiosk",
            .examples = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
            .words = GN_WORDS_REQUEST, .most = 1 + GN_CTL_WORDS_MAX, .takes = "quote what has spaces", .config = GN_CONFIG_OPTIONAL, .config_unless = "socket")
 GN_COMMAND(COMPARE, compare, .name = "compare", .usage = "compare [OPTION..] A B", .what = "measures how much two pictures differ, .png or .pfm",

@@ -77,7 +77,7 @@ LESSON(.name = "soft", .title = "Penumbrae grow with the distance from the caste
                  CURE("reads the nearest cone (cone)", "shadow = cone"),
                  CURE("sums of two moments (vssm)", "shadow = vssm")})
 LESSON(.name = "light-bleeding", .title = "Two moments let light through, four do not", .scene = "plates", .set = "map = 256",
-       .teaches = "Chebyshev's inequality knows the mean and the variance of distances only. Where the edge of the upper plate crosses the shadow of the lower one the variance is large, and light comes through the lower plate. Four moments tell three distances apart.",
+       .teaches = "Chebyshev's inequality knows the mean and the variance of distances only. Where the edge of the upper plate crosses the shadow of the lower one the variance is large, and light comes through the lower plate. Four moments separate three distances.",
        .steps = {FAULT(GLOW, "two moments (vsm)", "shadow = vsm"),
                  CURE("exponents of the distance (evsm)", "shadow = evsm"),
                  CURE("four moments (msm)", "shadow = msm")})

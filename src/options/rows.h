@@ -19,35 +19,35 @@ GN_OPTION(.name = "animation-speed", .section = "scene", .kind = GN_KIND_NUMBER,
 GN_OPTION(.name = "animation-start", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "time within each clip at which it begins, whatever its speed", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_start_ns))
 GN_OPTION(.name = "animation-restart", .section = "scene", .kind = GN_KIND_FLAG,
-          .help = "clips begin anew whenever the mode is entered, or a scene in it, or the mode named while it is shown", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_restart))
+          .help = "clips start again when the mode is entered, when a scene is entered in it, and when a button or gnomon ctl names the mode that is already shown", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_restart))
 GN_OPTION(.name = "variant", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|auto",
-          .help = "variant of the scene's materials (KHR_materials_variants); auto: as the file has them without one", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.variant))
+          .help = "variant of the scene's materials (KHR_materials_variants); auto: the file's default materials", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.variant))
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "start at this time of the animation", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.time_ns))
 GN_OPTION(.name = "floor", .section = "scene", .kind = GN_KIND_LEVEL, .min = -1e6, .max = 1e6, .value = "auto|none|HEIGHT", .unit = "metres", .fallback = "auto",
           .help = "an unseen floor that catches the shadows: under a model that stands on nothing (auto), or at a height", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.floor_m))
 GN_OPTION(.name = "texture-limit", .section = "scene", .kind = GN_KIND_LEVEL, .min = 16, .max = 16384, .value = "auto|none|PX", .unit = "pixels", .fallback = "auto",
-          .help = "make textures that are wider or higher than this smaller, by halves when a scene is loaded; auto: 2048 for bake, else as large as the GPU can have them", .commands = DRAW | BIT(INSPECT) | BIT(BAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.texture_limit_px))
+          .help = "halve textures that are wider or higher than this when a scene is loaded, until they fit; auto: 2048 for bake, else the largest size that the GPU supports", .commands = DRAW | BIT(INSPECT) | BIT(BAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.texture_limit_px))
 GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
           .unit = "degrees per second", .fallback = "0",
           .help = "turn the camera around the scene", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
 GN_OPTION(.name = "turntable-rest", .section = "scene", .kind = GN_KIND_SECONDS, .max = 86400, .value = "S", .unit = "seconds", .fallback = "5",
-          .help = "the turntable rests while the view is turned by hand, and so much longer; then it goes on from there. 0: it never rests", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_rest_ns))
+          .help = "how long the turntable rests after the view was turned by hand; then it goes on from there. 0: it never rests", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_rest_ns))
 /* the picture */
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
           .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | BIT(INSPECT) | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
-          .help = "shadow technique, cone for a light made for a scene without any; for bench a comma-separated list", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(technique), .offset = FIELD(render.shadow))
+          .help = "shadow technique, cone for the key light of a scene without lights; for bench a comma-separated list", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(technique), .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
           .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_px), .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
           .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_format), .offset = FIELD(render.map_format))
 GN_OPTION(.name = "map-clear", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_ends, .value = "END", .fallback = "far",
-          .help = "end of the light's distances that maps are cleared to, but depth textures; near is wrong, for gnomon lesson clear", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_clears_near))
+          .help = "end of the light's distances to which maps other than depth textures are cleared; near is wrong, for gnomon lesson clear", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.map_clears_near))
 GN_OPTION(.name = "cascades", .section = "render", .kind = GN_KIND_CHOICE, .choices = cascade_counts, .value = "N", .fallback = "auto",
           .help = "number of maps that share the view of a directional light", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(cascades), .offset = FIELD(render.cascades))
 GN_OPTION(.name = "cast-faces", .section = "render", .kind = GN_KIND_CHOICE, .choices = cast_faces, .value = "FACES", .fallback = "auto",
-          .help = "faces that cast into shadow maps: as the scene says of each thing (auto), or of all things those that face the light, face away from it, both, or what lies in the middle between the two", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(faces), .offset = FIELD(render.cast_faces))
+          .help = "faces that cast into shadow maps: auto: as the scene sets it for each object; for all objects those that face the light (front), face away from it (back), both, or the middle between the two", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(faces), .offset = FIELD(render.cast_faces))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
           .help = "draw planar shadows with a mask texture (edges one texel soft), the stencil buffer (sharp edges) or the mean of masks over the lamp (exact penumbrae)", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar))
 GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",
@@ -61,7 +61,7 @@ GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, 
 GN_OPTION(.name = "shadow-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1, .value = "X", .fallback = "1",
           .help = "share of direct light that a shadow removes", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(strength), .offset = FIELD(render.shadow_strength))
 GN_OPTION(.name = "shadow-specular", .section = "render", .kind = GN_KIND_EV, .max = 1, .value = "auto|X", .fallback = "auto",
-          .help = "share of highlights that stays in shadow; as the scene says, else as of the rest", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(specular), .offset = FIELD(render.shadow_specular))
+          .help = "share of highlights that stays in shadow; auto: as the scene sets it, else as of the rest", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(specular), .offset = FIELD(render.shadow_specular))
 GN_OPTION(.name = "bias", .section = "render", .kind = GN_KIND_EV, .max = 100, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
           .help = "bias of shadow maps: 0 shows acne, large ones detach shadows from what casts them", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(bias_texels), .offset = FIELD(render.bias_texels))
 GN_OPTION(.name = "filter-radius", .section = "render", .kind = GN_KIND_EV, .min = 1, .max = 32, .value = "auto|TEXELS", .unit = "texels", .fallback = "auto",
@@ -69,7 +69,7 @@ GN_OPTION(.name = "filter-radius", .section = "render", .kind = GN_KIND_EV, .min
 GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .choices = slide_aspects, .value = "SHAPE", .fallback = "square",
           .help = "shape of a slide whose size the scene does not give; it fills the cone of its spot", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(slide_as_picture), .offset = FIELD(render.slide_as_picture))
 GN_OPTION(.name = "slide-far", .section = "render", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
-          .help = "depth in the light's cone at which the picture of a slide ends, as the scene says (auto); 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(slide_far_m), .offset = FIELD(render.slide_far_m))
+          .help = "depth in the light's cone at which the picture of a slide ends; auto: as the scene sets it; 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(slide_far_m), .offset = FIELD(render.slide_far_m))
 GN_OPTION(.name = "environment", .section = "render", .kind = GN_KIND_PATH, .choices = environments, .value = "auto|studio|none|FILE.hdr", .fallback = "auto",
           .help = "light from all directions: the studio inside the program, a Radiance picture, or none; by itself studio for a scene without lights of its own, and in others only as reflections of metal", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment))
 GN_OPTION(.name = "environment-turn", .section = "render", .kind = GN_KIND_NUMBER, .min = -360, .max = 360, .value = "DEG", .unit = "degrees", .fallback = "0",
@@ -79,7 +79,7 @@ GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_N
 GN_OPTION(.name = "environment-show", .section = "render", .kind = GN_KIND_CHOICE, .choices = environment_shows, .value = "no|yes|blur", .fallback = "no",
           .help = "draw the environment as the background, unless that is transparent", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_show))
 GN_OPTION(.name = "occlusion", .section = "render", .kind = GN_KIND_CHOICE, .choices = occlusions, .value = "auto|none", .fallback = "auto",
-          .help = "less light from all directions where the model itself is in its way; auto: where an environment lights the model, on all of it that no clip moves, while the shape is not too fine for the 32,768 cubes that it is measured in", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
+          .help = "ambient occlusion: less light from all directions where the model itself blocks it; auto: where an environment lights the model, on all of it that no clip moves, unless the shape is too fine for the 32,768 cubes in which it is measured", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
 GN_OPTION(.name = "gather", .section = "render", .kind = GN_KIND_CHOICE, .choices = gathers, .value = "auto|none", .fallback = "auto",
           .help = "soft shadows of a scene that stands still; auto: after a third of a second they converge to those from many points of each light, until something moves", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.gather))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
@@ -108,19 +108,19 @@ GN_OPTION(.name = "without", .section = "render", .kind = GN_KIND_CAPS, .value =
           .help = "do not use these GPU capabilities, named as doctor prints them", .commands = DRAW | BIT(DOCTOR), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.without))
 GN_OPTION(.name = "limit", .section = "render", .kind = GN_KIND_LIMIT, .min = 1, .max = 1099511627776.0, .value = "NAME=VALUE",
           .help = "limit on the size of a scene, or on the processor time that loading one may take; may be repeated", .commands = DRAW | BIT(INSPECT) | BIT(BAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.limits))
-/* the light made for a scene without any; those of_light are of any other too */
+/* the key light of a scene without lights; those of_light are of any other too */
 GN_OPTION(.name = "light-azimuth", .key = "azimuth", .section = "light", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
-          .help = "where the made light comes from: 0 from the front (+Z), 90 from +X, as the scene stands; with --light-follow camera 0 from the camera, 90 from its right", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.azimuth_deg))
+          .help = "where the key light comes from: 0 from the front (+Z), 90 from +X, as the scene stands; with --light-follow camera 0 from the camera, 90 from its right", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.azimuth_deg))
 GN_OPTION(.name = "light-elevation", .key = "elevation", .section = "light", .kind = GN_KIND_EV, .min = -90, .max = 90, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
-          .help = "height of the made light over the horizon: 90 from straight above", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.elevation_deg))
+          .help = "height of the key light over the horizon: 90 from straight above", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.elevation_deg))
 GN_OPTION(.name = "light-follow", .key = "follow", .section = "light", .kind = GN_KIND_CHOICE, .choices = follows, .value = "WHAT", .fallback = "world",
-          .help = "what the made light stands still in: the scene, or the picture, so that it turns with the camera, also by a turntable or the mouse", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.follows_camera))
+          .help = "what the key light is fixed to: the scene, or the camera, so that it turns with the view, also by a turntable or the mouse", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(light.follows_camera))
 GN_OPTION(.name = "light-color", .key = "color", .section = "light", .kind = GN_KIND_COLOR, .choices = light_colors, .value = "COLOUR", .fallback = "auto",
-          .help = "colour of the made light, #rrggbb; how bright it is does not count", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(hue), .offset = FIELD(light.color))
+          .help = "colour of the key light, #rrggbb; its brightness does not count", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(hue), .offset = FIELD(light.color))
 GN_OPTION(.name = "light-lux", .key = "lux", .section = "light", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|LUX", .unit = "lux", .fallback = "auto",
-          .help = "illuminance by the made light; auto: that of its environment, 2.4 in the studio, or 2.8 without one. With --exposure 0 a white surface that faces 3.14 lux is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .target = LIGHT(intensity), .offset = FIELD(light.lux))
+          .help = "illuminance by the key light; auto: that of its environment, 2.4 in the studio, or 2.8 without one. With --exposure 0 a white surface that faces 3.14 lux is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .target = LIGHT(intensity), .offset = FIELD(light.lux))
 GN_OPTION(.name = "light-radius", .key = "radius", .section = "light", .kind = GN_KIND_EV, .max = 1000, .value = "auto|R", .fallback = "auto",
-          .help = "size of the made light, by which pcss, cone and other soft techniques draw penumbrae: tangent of its angular radius; of a light that is not directional: metres; auto: that of its environment, .24 in the studio, or .00465 without one", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(radius), .offset = FIELD(light.radius))
+          .help = "size of the key light, by which pcss, cone and other soft techniques draw penumbrae: tangent of its angular radius; of a light that is not directional: metres; auto: that of its environment, .24 in the studio, or .00465 without one", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(radius), .offset = FIELD(light.radius))
 GN_OPTION(.name = "light-intensity", .key = "intensity", .kind = GN_KIND_EV, .max = 1e9, .value = "auto|X", .fallback = "auto",
           .help = "intensity in the unit of the light, as in the file and as inspect prints it: candela, of a directional one lux", .of_light = true, .target = LIGHT(intensity), .offset = FIELD(light.intensity))
 GN_OPTION(.name = "light-on", .key = "on", .kind = GN_KIND_FLAG, .fallback = "yes",
@@ -170,7 +170,7 @@ GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "touch-rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees", .fallback = "0",
           .help = "how a touch screen's glass is mounted on its panel, if it is turned clockwise against it; with rotate touches are turned anyway", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.touch_rotate_deg))
 GN_OPTION(.name = "pixel-shift", .section = "display", .kind = GN_KIND_INT, .min = 0, .max = 64, .value = "PX", .unit = "pixels", .fallback = "0",
-          .help = "against burn-in the picture wanders by a pixel a minute, up to so many to each side; 0: it stays", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.pixel_shift_px))
+          .help = "move the picture by a pixel a minute, up to so many to each side, against burn-in; 0: do not", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.pixel_shift_px))
 /* what a kiosk does by itself */
 GN_OPTION(.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = idles, .value = "WHAT", .fallback = "none",
           .help = "after the idle timeout go to the first mode, or to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))
@@ -179,20 +179,20 @@ GN_OPTION(.name = "idle-after", .section = "kiosk", .kind = GN_KIND_SECONDS, .mi
 GN_OPTION(.name = "pointer", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = pointers, .value = "WHICH", .fallback = "touch",
           .help = "what turns the model on a screen without a desktop: touch screens, all (mice, too; none is drawn) or none", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.pointer))
 GN_OPTION(.name = "while-playing", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = playings, .value = "WHAT", .fallback = "act",
-          .help = "buttons while play CLIP plays: act as ever (play again begins anew), or ignore presses", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.plays_alone))
+          .help = "what buttons do while play CLIP plays: act as usual (play starts the clip again), or ignore presses", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.plays_alone))
 GN_OPTION(.name = "fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "duration of the fade between modes", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.fade_ns))
 GN_OPTION(.name = "clip-fade", .section = "kiosk", .kind = GN_KIND_SECONDS, .max = 10, .value = "S", .unit = "seconds", .fallback = ".3",
           .help = "how long the scene takes from the pose of some clips to that of others", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.clip_fade_ns))
-/* what a kiosk lets itself be told, and says */
+/* what a kiosk reads from outside, and what it reports */
 GN_OPTION(.name = "socket", .section = "kiosk", .kind = GN_KIND_PATH, .value = "PATH",
-          .help = "the socket that ctl talks to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.socket))
+          .help = "the socket that ctl connects to; without it /run/gnomon/ctl, else $XDG_RUNTIME_DIR/gnomon/ctl", .commands = BIT(SHOW) | BIT(CTL), .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.socket))
 GN_OPTION(.name = "screenshots", .section = "kiosk", .kind = GN_KIND_PATH, .value = "DIR",
           .help = "folder that clients of the socket may have screenshots written to by the kiosk itself; without it, only gnomon ctl gets them", .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.screenshots))
 GN_OPTION(.name = "watch", .section = "kiosk", .kind = GN_KIND_FLAG,
-          .help = "show the scene and this file again when they change, once they are written to the end; what is wrong with them changes nothing but the status", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.watch))
+          .help = "show the scene and this file again when they have changed and are completely written; an error in them changes nothing but the status", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.watch))
 GN_OPTION(.name = "state", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "FILE|no", .fallback = "no",
-          .help = "file that mode, scene and counters outlast a restart in; beside it there is FILE.2. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
+          .help = "file in which mode, scene and counters outlast a restart; beside it there is FILE.2. A service has /var/lib/gnomon/state", .commands = KIOSK, .change = GN_CHANGE_RESTART, .offset = FIELD(kiosk.state))
 GN_OPTION(.name = "content", .section = "kiosk", .kind = GN_KIND_PATH, .choices = states, .value = "DIR|no", .fallback = "no",
           .help = "folder in which gnomon take keeps what USB sticks bring; its kiosk.ini, or its scene, is laid over this file. A service has /var/lib/gnomon/content", .commands = KIOSK | BIT(TAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(kiosk.content))
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
@@ -203,20 +203,20 @@ GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS
 GN_OPTION(.name = "hours", .key = "on", .section = "schedule", .kind = GN_KIND_HOURS, .value = "HOURS", .fallback = "always",
           .help = "hours of local time in which the screen is on, as mon-fri 08:00-20:00, sat 10:00-18:00; always on while the clock is not set", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.on))
 GN_OPTION(.name = "hours-off", .key = "off", .section = "schedule", .kind = GN_KIND_CHOICE, .choices = offs, .value = "HOW", .fallback = "dpms",
-          .help = "outside of them switch the display off, or show black, for displays that do not come back; cec and cec-black also put a television into standby and bring it back, by CEC", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.off))
+          .help = "outside of these hours switch the display off, or show black, for displays that do not come back; cec and cec-black also put a television into standby and bring it back, by CEC", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.off))
 GN_OPTION(.name = "cec-device", .section = "schedule", .kind = GN_KIND_PATH, .value = "PATH",
           .help = "the CEC adapter, as /dev/cec1; without it the one of the connector in use, else the first that has a television", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.cec_device))
 GN_OPTION(.name = "hours-wake", .key = "wake", .section = "schedule", .kind = GN_KIND_SECONDS, .min = 1, .max = 86400, .value = "S", .unit = "seconds", .fallback = "300",
-          .help = "a button that is pressed outside of them switches the screen on, until so long after the last press", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.wake_ns))
+          .help = "a button that is pressed outside of these hours switches the screen on, until this long after the last press", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.wake_ns))
 GN_OPTION(.name = "hours-dim", .key = "dim", .section = "schedule", .kind = GN_KIND_HOURS, .value = "HOURS", .fallback = "never",
-          .help = "hours of local time, of those in which it is on, in which the picture is darker; never while the clock is not set", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.dim))
+          .help = "hours of local time in which the picture is darker while the screen is on; never while the clock is not set", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.dim))
 GN_OPTION(.name = "hours-dim-to", .key = "dim_to", .section = "schedule", .kind = GN_KIND_NUMBER, .min = .01, .max = 1, .value = "X", .fallback = ".3",
-          .help = "share of the picture's light that is left in them", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.dim_to))
+          .help = "share of the picture's light that is left in the darker hours", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.dim_to))
 GN_OPTION(.name = "hours-clock", .key = "clock", .section = "schedule", .kind = GN_KIND_CHOICE, .choices = clocks, .value = "WHICH", .fallback = "checked",
           .help = "checked: the clock counts as set once the network or a battery has set it; trusted: also otherwise, if it shows 2024 or later", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.clock_trusted))
 /* the command's own */
 GN_OPTION(.name = "input-script", .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "press keys and buttons as this file says: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(run.input_script))
+          .help = "press keys and buttons by this script: TIME_S down|up|click NAME a line", .commands = BIT(SHOW), .offset = FIELD(run.input_script))
 GN_OPTION(.name = "config", .letter = 'c', .kind = GN_KIND_PATH, .value = "FILE",
           .help = "read this INI file", .commands = DRAW | BIT(INSPECT) | BIT(CTL) | BIT(TAKE), .offset = FIELD(run.config))
 GN_OPTION(.name = "check", .kind = GN_KIND_PATH, .value = "FILE",
@@ -230,7 +230,7 @@ GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
 GN_OPTION(.name = "simplify", .kind = GN_KIND_NUMBER, .min = 0.001, .max = 1, .value = "RATIO", .fallback = "1",
           .help = "keep this share of each mesh's triangles, or more where it would move by over 1/50 of its size", .commands = BIT(BAKE), .offset = FIELD(run.simplify))
 GN_OPTION(.name = "rollback", .kind = GN_KIND_FLAG,
-          .help = "show what was shown before what was taken last; again: forward", .commands = BIT(TAKE), .offset = FIELD(run.rollback))
+          .help = "show the content from before the last take; a second time: go forward again", .commands = BIT(TAKE), .offset = FIELD(run.rollback))
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
           .help = "draw this text on the picture, as the kiosk does with an error", .commands = BIT(RENDER), .offset = FIELD(run.caption))
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",
@@ -256,7 +256,7 @@ GN_OPTION(.name = "normal", .kind = GN_KIND_PATH, .value = "FILE",
 GN_OPTION(.name = "to-light", .kind = GN_KIND_POINT, .min = -1e6, .max = 1e6, .value = "auto|X,Y,Z", .fallback = "auto",
           .help = "with --normal, direction to the light: shadows count by how much of its light a surface gets, a level floor's being 1; auto: all count alike", .commands = BIT(COMPARE), .offset = FIELD(run.shadows.to_light))
 GN_OPTION(.name = "truth", .kind = GN_KIND_TEXT, .value = "NAME",
-          .help = "scene of the benchmark that the picture shows; without it, the picture is called as the scene", .commands = BIT(SCORE), .offset = FIELD(run.truth))
+          .help = "scene of the benchmark that the picture shows; without it, the scene that has the picture's name", .commands = BIT(SCORE), .offset = FIELD(run.truth))
 GN_OPTION(.name = "benchmark", .kind = GN_KIND_PATH, .value = "DIR", .fallback = "assets/benchmark",
           .help = "folder of the benchmark's scenes and truths", .commands = BIT(SCORE), .offset = FIELD(run.benchmark))
 GN_OPTION(.name = "reach", .kind = GN_KIND_NUMBER, .max = 1000, .value = "TEXELS", .unit = "texels", .fallback = "3",
@@ -266,7 +266,7 @@ GN_OPTION(.name = "make-truth", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,
           .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.json))
 GN_OPTION(.name = "for", .kind = GN_KIND_CHOICE, .choices = gpus, .value = "GPU", .fallback = "none",
-          .help = "also say how long the GPU of this board takes for a frame at least, what bounds each pass and what to change: pi4, pi5, g31, g52, g610, a618 or a660", .commands = BIT(INSPECT), .offset = FIELD(run.on_gpu))
+          .help = "also print how long the GPU of this board takes for a frame at least, what bounds each pass and what to change: pi4, pi5, g31, g52, g610, a618 or a660", .commands = BIT(INSPECT), .offset = FIELD(run.on_gpu))
 GN_OPTION(.name = "csv", .kind = GN_KIND_FLAG,
           .help = "print CSV: a line for each scene and technique, or picture and class", .commands = BIT(BENCH) | BIT(SCORE), .offset = FIELD(run.csv))
 GN_OPTION(.name = "move-lights", .kind = GN_KIND_FLAG,
