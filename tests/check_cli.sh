@@ -54,6 +54,13 @@ grep -qE '^ *[0-9]+ +1\.0 +[0-9]+ +floor$' "$folder/out" || complain "inspect: f
 expect 2 'gnomon: --for: "pi9" is not one of none, pi4, pi5, g31, g52, g610, a618, a660; did you mean pi4?' inspect --for pi9
 expect 2 '--size: inspect needs --for GPU with it' inspect --size 640x360
 expect 2 "--size: 16384x16384 is more than a board's GPU draws: at most 4096x4096" inspect --for pi4 --size 16384x16384
+# each tap is one fetch
+fetches=
+for taps in 8 12 16; do
+    expect 0 '' inspect assets/bench/s1.glb --for pi4 --size 64x64 --shadow cone --taps $taps
+    fetches="$fetches$(sed -n 's/^ *[0-9]* *\([0-9.]*\) *[0-9]*  .*lit, DIRECTIONAL cone rg16f$/\1/p' "$folder/out" | head -n 1) "
+done
+echo "$fetches" | awk '{ exit !($2 - $1 == 4 && $3 - $2 == 4) }' || complain "inspect: fetches with 8, 12 and 16 taps: $fetches"
 # gnomon fit: the bound is that of inspect with what was written; nothing is written where the goal is out of reach, or over a file
 bound_of() { sed -n "s/^ *$1 *\([0-9.]*\) ms.*/\1/p" "$folder/out"; }
 mkdir "$folder/fit"
