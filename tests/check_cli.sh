@@ -76,7 +76,7 @@ for goal in 30 60; do
     expect 0 '' show --check "$ini"
     expect 0 '' inspect -c "$ini" --for pi4
     inspected_ms=$(bound_of 'each frame')
-    [ -n "$fit_ms" ] && [ "$fit_ms" = "$inspected_ms" ] || complain "fit: $fit_ms ms, inspect: $inspected_ms ms"
+    [ "${fit_ms:-none}" = "$inspected_ms" ] || complain "fit: $fit_ms ms, inspect: $inspected_ms ms"
     echo "$fit_ms $goal" | awk '{ exit !($1 <= 1000 / $2 && $1 > 500 / $2) }' || complain "fit: $fit_ms ms for $goal frames a second"
 done
 # the weaker of two lights does without its shadow, where that is enough
@@ -89,6 +89,7 @@ for config in '' "-c $folder/fit/lantern.ini"; do
     bounds="$bounds$(bound_of 'each frame') "
 done
 fps=$(echo "$bounds" | awk '{ print 2000 / ($1 + $2) }')
+# shellcheck disable=SC2086
 expect 0 '' fit $cheap --fps "$fps" -o "$folder/fit/lights.ini"
 tail -n 2 "$folder/fit/lights.ini" | cmp -s - "$folder/fit/lantern.ini" || complain "fit: shadows of lights: $(cat "$folder/fit/lights.ini")"
 expect 0 '' inspect -c "$folder/fit/lights.ini" --for pi4
