@@ -17,7 +17,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet \
-        lessons book readme options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
+        lessons book readme board-table options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
 #: make run        install what is missing, build, show the default scene
@@ -42,6 +42,8 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make readme     the table of techniques (src/shadow/README.md), measured
 #: make options-page
 #:                 the table of keys in src/options/README.md, from the table of options
+#: make board-table
+#:                 the table of costs in board/README.md, after the model of src/cost
 #: make pictures   the pictures of README.md, and how far they are from rays
 #: make gallery    one scene with every technique and the truth, into assets/gallery
 #: make models     default pictures of the models of ../shared/assets against the same by rays;
@@ -360,6 +362,8 @@ check-tangents: $(B)/tests/tool_tangents
 # the table of keys in src/options/README.md
 options-page: $(O)/host/man
 	sh tests/options_page.sh $< > src/options/README.md.new && mv src/options/README.md.new src/options/README.md
+board-table: $(BIN)
+	sh board/cost_table.sh $< board/README.md > board/README.md.new && mv board/README.md.new board/README.md
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 pictures: $(B)/tests/tool_sheet $(BIN) assets/book/studio.glb

@@ -9,6 +9,7 @@
 #include "cli/bench_move.h"
 #include "cli/bench_report.h"
 #include "cli/commands.h"
+#include "cli/inspect_time.h"
 #include "cli/memory.h"
 #include "core/arena.h"
 #include "core/clock.h"
@@ -107,6 +108,22 @@ static bool time_passes(struct bench *b, struct entry *e, struct gn_err *err) {
 
 /* ---- results ---- */
 
+/* The time of what was drawn last, on the board of --for. */
+static bool weigh_run(struct bench *b, struct gn_bench_run *run, struct gn_err *err) {
+    const struct gn_run_settings *o = &b->settings->run;
+    struct gn_inspect_time time = {0};
+    size_t size;
+    if (!o->on_gpu) return true;
+    bool ok =
+        gn_inspect_time_build(&time, &b->stage, &gn_cost_gpus[o->on_gpu - 1], b->warnings, err);
+    if (ok && o->json) run->time_json = gn_inspect_time_json(&time);
+    FILE *to = ok && !o->json ? open_memstream(&run->time, &size) : NULL;
+    if (to) gn_inspect_time_print(&time, to);
+    if (ok && !o->json && (!to || fclose(to) != 0)) ok = gn_fail(err, "no memory for a report");
+    gn_inspect_time_finish(&time);
+    return ok;
+}
+
 static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
     const struct gn_plan *plan = prepare_frame(b, e, e->frame, err);
     if (!plan) return false;
@@ -132,7 +149,7 @@ static bool finish_run(struct bench *b, struct entry *e, struct gn_err *err) {
     if (e->allocations > 0)
         gn_warn(b->warnings, "%s: timed frames asked for memory or GL objects %llu times",
                 run->technique, (unsigned long long)e->allocations);
-    return true;
+    return weigh_run(b, run, err);
 }
 
 /* ---- the start ---- */
@@ -220,6 +237,11 @@ bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings
     struct gn_memory_probe probe;
     if (o->run.json && o->run.csv)
         return gn_fail_usage(err, "--json and --csv exclude each other: drop one");
+    if (o->run.on_gpu && (o->run.csv || o->run.move_lights || o->run.move_casters))
+        return gn_fail_usage(err, "%s does not go with --for: drop one",
+                             o->run.csv           ? "--csv"
+                             : o->run.move_lights ? "--move-lights"
+                                                  : "--move-casters");
     gn_memory_probe_open(&probe, o->display.backend);
     const uint32_t count = o->scene.list.count > 0 ? (uint32_t)o->scene.list.count : 1;
     bool ok = true;
@@ -236,7 +258,11 @@ bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings
     }
     ok = ok && print_reports(o, reports, count, err);
     for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t k = 0; k < reports[i].run_count; k++) free(reports[i].runs[k].passes);
+        for (uint32_t k = 0; k < reports[i].run_count; k++) {
+            free(reports[i].runs[k].passes);
+            free(reports[i].runs[k].time);
+            json_decref(reports[i].runs[k].time_json);
+        }
         free(reports[i].runs);
     }
     gn_memory_probe_close(&probe);

@@ -79,6 +79,9 @@ void gn_bench_print(const struct gn_bench_report *report, FILE *to) {
             fprintf(to, "%-9s %7.2f  %s\n", k ? "" : run->technique, run->passes[k].ms,
                     run->passes[k].label);
     }
+    for (uint32_t i = 0; i < report->run_count; i++)
+        if (report->runs[i].time)
+            fprintf(to, "\n%s%s", report->runs[i].technique, report->runs[i].time);
 }
 
 /* ---- for programs ---- */
@@ -121,6 +124,7 @@ static json_t *report_json(const struct gn_bench_report *report) {
         json_object_set_new(run, "shadow_draws", gn_json_make_count(r->stats.shadow_draws));
         json_object_set_new(run, "target_bytes", gn_json_make_count(r->stats.target_bytes));
         json_object_set_new(run, "idle", json_boolean(r->idle));
+        if (r->time_json) json_object_set(run, "time", r->time_json);
         json_array_append_new(runs, run);
     }
     json_object_set_new(object, "runs", runs);

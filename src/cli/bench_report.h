@@ -2,6 +2,7 @@
 #ifndef GN_CLI_BENCH_REPORT_H
 #define GN_CLI_BENCH_REPORT_H
 
+#include <jansson.h>
 #include <stdint.h>
 #include <stdio.h>
 
@@ -26,6 +27,8 @@ struct gn_bench_run {          /* one technique */
     uint32_t pass_count;
     struct gn_gl_stats stats; /* of the last timed frame. target_bytes: of all techniques so far */
     bool idle;                /* the kiosk would draw nothing: no clip, no turntable */
+    char *time;               /* of --for: the report of cli/inspect_time.h, as text or as JSON; */
+    json_t *time_json;        /* else NULL. Both are freed by the owner */
 };
 
 struct gn_bench_report {

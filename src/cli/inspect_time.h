@@ -1,4 +1,5 @@
-/* inspect --for GPU: how long the GPU of a board takes for a frame at least (cost/frame_cost.h). */
+/* inspect and bench --for GPU: how long the GPU of a board takes for a frame at least
+ * (cost/frame_cost.h). */
 #ifndef GN_CLI_INSPECT_TIME_H
 #define GN_CLI_INSPECT_TIME_H
 

@@ -11,7 +11,7 @@
  * by them is not calibrated. Instructions are as Mesa's compilers count them: of V3D a QPU's, which
  * adds and multiplies in one; of Bifrost each half of a tuple; of Valhall and Adreno one operation.
  *
- * Measured: glmark2 effect2d with a kernel of 5x5 at 800x600, 15 fetches and 15 x 480,000 in 2.58
+ * Measured: glmark2 effect2d with a kernel of 5x3 at 800x600, 15 fetches and 15 x 480,000 in 2.58
  * ms on a Pi 5 are 2.79 G fetches a second, 3 % under 3 texture units at .96 GHz. The same unit is
  * in the Pi 4, where two of them have .5 GHz. */
 /* clang-format off */

@@ -147,4 +147,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings);
 
+/* Lux by a light of that colour on a surface at the scene's centre that faces it; ignores cones. */
+float gn_frame_illuminance(const struct gn_pose *pose, uint32_t light, const float color[3]);
+
 #endif

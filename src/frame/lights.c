@@ -4,8 +4,7 @@
 #include "core/srgb.h"
 #include "frame/private.h"
 
-/* Lux on a surface at the scene's centre that faces the light; ignores cones. */
-static float illuminance(const struct gn_pose *pose, uint32_t index, const float color[3]) {
+float gn_frame_illuminance(const struct gn_pose *pose, uint32_t index, const float color[3]) {
     const struct gn_light *light = &pose->scene->lights[index];
     if (!gn_light_types[light->type].has_position) return gn_luminance(color);
     vec3 place, direction, centre;
@@ -22,7 +21,7 @@ float gn_frame_exposure(struct gn_frame *frame, const struct gn_pose *pose,
     if (frame->auto_exposure.known) return frame->auto_exposure.value;
     float sum = 0.0f, strongest = 0.0f;
     for (uint32_t i = 0; i < frame->scene->light_count; i++) {
-        float lux = illuminance(pose, i, frame->scene->lights[i].color);
+        float lux = gn_frame_illuminance(pose, i, frame->scene->lights[i].color);
         sum += lux;
         strongest = fmaxf(strongest, lux);
     }
@@ -198,7 +197,7 @@ void gn_frame_choose_lights(struct gn_frame *frame, const struct gn_pose *pose,
         struct gn_frame_light l = {.light = i, .opts = gn_frame_light_opts(frame, pose, opts, i)};
         if (!l.opts.on) continue;
         l.technique = technique_of(frame, &l, opts, warnings);
-        l.illuminance = illuminance(pose, i, l.opts.color);
+        l.illuminance = gn_frame_illuminance(pose, i, l.opts.color);
         if (casts_shadow(&l)) choose_encoding(frame, opts, &l, warnings);
         if (frame->light_count == most) { /* full: replaces the weakest, or is that itself */
             const uint32_t least = find_weakest(frame, false);

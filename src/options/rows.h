@@ -7,11 +7,11 @@
 GN_OPTION(.name = "scene", .key = "file", .section = "scene", .kind = GN_KIND_SCENES, .value = "FILE",
           .help = "scene file (.glb, .gltf, .obj, .fbx, .stl, .ply, .dae); may be repeated: next-scene goes through the list; on the command line it needs no flag", .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.path))
 GN_OPTION(.name = "camera", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|light:NAME|auto",
-          .help = "camera of the scene, or the view of a spot or directional light; auto: the first camera, but if it sees less than a third of the model one that shows all of it", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
+          .help = "camera of the scene, or the view of a spot or directional light; auto: the first camera, but if it sees less than a third of the model one that shows all of it", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.camera))
 GN_OPTION(.name = "animation", .section = "scene", .kind = GN_KIND_TEXT, .value = "NAME|N|none",
-          .help = "play only this clip (default: all that do not collide)", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
+          .help = "play only this clip (default: all that do not collide)", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation))
 GN_OPTION(.name = "no-animation", .section = "scene", .kind = GN_KIND_FLAG,
-          .help = "do not animate", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
+          .help = "do not animate", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.no_animation))
 GN_OPTION(.name = "animation-loop", .section = "scene", .kind = GN_KIND_CHOICE, .choices = clip_turns, .value = "HOW", .fallback = "loop",
           .help = "what clips do at their end: begin again, stay there, or go back", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.animation_turns))
 GN_OPTION(.name = "animation-speed", .section = "scene", .kind = GN_KIND_NUMBER, .min = 0, .max = 100, .value = "F", .fallback = "1",
@@ -25,21 +25,21 @@ GN_OPTION(.name = "variant", .section = "scene", .kind = GN_KIND_TEXT, .value = 
 GN_OPTION(.name = "time", .section = "scene", .kind = GN_KIND_SECONDS, .max = 1e9, .value = "S", .unit = "seconds", .fallback = "0",
           .help = "start at this time of the animation", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.time_ns))
 GN_OPTION(.name = "floor", .section = "scene", .kind = GN_KIND_LEVEL, .min = -1e6, .max = 1e6, .value = "auto|none|HEIGHT", .unit = "metres", .fallback = "auto",
-          .help = "an unseen floor that catches the shadows: under a model that stands on nothing (auto), or at a height", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.floor_m))
+          .help = "an unseen floor that catches the shadows: under a model that stands on nothing (auto), or at a height", .commands = DRAW | MODEL, .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.floor_m))
 GN_OPTION(.name = "texture-limit", .section = "scene", .kind = GN_KIND_LEVEL, .min = 16, .max = 16384, .value = "auto|none|PX", .unit = "pixels", .fallback = "auto",
-          .help = "halve textures that are wider or higher than this when a scene is loaded, until they fit; auto: 2048 for bake, else the largest size that the GPU supports", .commands = DRAW | BIT(INSPECT) | BIT(BAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.texture_limit_px))
+          .help = "halve textures that are wider or higher than this when a scene is loaded, until they fit; auto: 2048 for bake, else the largest size that the GPU supports", .commands = DRAW | MODEL | BIT(BAKE), .change = GN_CHANGE_RELOAD, .offset = FIELD(scene.texture_limit_px))
 GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min = -3600, .max = 3600, .value = "DEG",
           .unit = "degrees per second", .fallback = "0",
-          .help = "turn the camera around the scene", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
+          .help = "turn the camera around the scene", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
 GN_OPTION(.name = "turntable-rest", .section = "scene", .kind = GN_KIND_SECONDS, .max = 86400, .value = "S", .unit = "seconds", .fallback = "5",
           .help = "how long the turntable rests after the view was turned by hand; then it goes on from there. 0: it never rests", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_rest_ns))
 /* the picture */
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
-          .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | BIT(INSPECT) | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
+          .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | MODEL | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
-          .help = "shadow technique, cone for the key light of a scene without lights; for bench a comma-separated list", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(technique), .offset = FIELD(render.shadow))
+          .help = "shadow technique, cone for the key light of a scene without lights; for bench a comma-separated list", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(technique), .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
-          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_px), .offset = FIELD(render.map_px))
+          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_px), .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
           .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_format), .offset = FIELD(render.map_format))
 GN_OPTION(.name = "map-clear", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_ends, .value = "END", .fallback = "far",
@@ -49,11 +49,11 @@ GN_OPTION(.name = "cascades", .section = "render", .kind = GN_KIND_CHOICE, .choi
 GN_OPTION(.name = "cast-faces", .section = "render", .kind = GN_KIND_CHOICE, .choices = cast_faces, .value = "FACES", .fallback = "auto",
           .help = "faces that cast into shadow maps: auto: as the scene sets it for each object; for all objects those that face the light (front), face away from it (back), both, or the middle between the two", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(faces), .offset = FIELD(render.cast_faces))
 GN_OPTION(.name = "planar", .section = "render", .kind = GN_KIND_CHOICE, .choices = planar_ways, .value = "WAY", .fallback = "mask",
-          .help = "draw planar shadows with a mask texture (edges one texel soft), the stencil buffer (sharp edges) or the mean of masks over the lamp (exact penumbrae)", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar))
+          .help = "draw planar shadows with a mask texture (edges one texel soft), the stencil buffer (sharp edges) or the mean of masks over the lamp (exact penumbrae)", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar))
 GN_OPTION(.name = "planar-points", .section = "render", .kind = GN_KIND_CHOICE, .choices = lamp_points, .value = "N", .fallback = "64",
           .help = "number of points of the lamp with planar soft; where frames follow each other, 16 more with each frame in which nothing moves", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.planar_points))
 GN_OPTION(.name = "taps", .section = "render", .kind = GN_KIND_CHOICE, .choices = tap_counts, .value = "N", .fallback = "auto",
-          .help = "number of samples of disk, poisson, white, pcss (auto: 16) and cone (auto: 12; 8 to 16)", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(taps), .offset = FIELD(render.taps))
+          .help = "number of samples of disk, poisson, white, pcss (auto: 16) and cone (auto: 12; 8 to 16)", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(taps), .offset = FIELD(render.taps))
 GN_OPTION(.name = "taps-fixed", .section = "render", .kind = GN_KIND_FLAG,
           .help = "do not rotate the sample pattern per pixel (banding instead of noise)", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.taps_fixed))
 GN_OPTION(.name = "filter-budget", .section = "render", .kind = GN_KIND_NUMBER, .max = 10000, .value = "N", .unit = "million texels", .fallback = "4",
@@ -71,7 +71,7 @@ GN_OPTION(.name = "slide-aspect", .section = "render", .kind = GN_KIND_CHOICE, .
 GN_OPTION(.name = "slide-far", .section = "render", .kind = GN_KIND_EV, .max = 1e6, .value = "auto|M", .unit = "metres", .fallback = "auto",
           .help = "depth in the light's cone at which the picture of a slide ends; auto: as the scene sets it; 0: nowhere", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(slide_far_m), .offset = FIELD(render.slide_far_m))
 GN_OPTION(.name = "environment", .section = "render", .kind = GN_KIND_PATH, .choices = environments, .value = "auto|studio|none|FILE.hdr", .fallback = "auto",
-          .help = "light from all directions: the studio inside the program, a Radiance picture, or none; by itself studio for a scene without lights of its own, and in others only as reflections of metal", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment))
+          .help = "light from all directions: the studio inside the program, a Radiance picture, or none; by itself studio for a scene without lights of its own, and in others only as reflections of metal", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment))
 GN_OPTION(.name = "environment-turn", .section = "render", .kind = GN_KIND_NUMBER, .min = -360, .max = 360, .value = "DEG", .unit = "degrees", .fallback = "0",
           .help = "turn the environment about the vertical axis, counter-clockwise seen from above", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_turn_deg))
 GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_NUMBER, .max = 1000, .value = "X", .fallback = "1",
@@ -79,7 +79,7 @@ GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_N
 GN_OPTION(.name = "environment-show", .section = "render", .kind = GN_KIND_CHOICE, .choices = environment_shows, .value = "no|yes|blur", .fallback = "no",
           .help = "draw the environment as the background, unless that is transparent", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_show))
 GN_OPTION(.name = "occlusion", .section = "render", .kind = GN_KIND_CHOICE, .choices = occlusions, .value = "auto|none", .fallback = "auto",
-          .help = "ambient occlusion: less light from all directions where the model itself blocks it; auto: where an environment lights the model, on all of it that no clip moves, unless the shape is too fine for the 32,768 cubes in which it is measured", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
+          .help = "ambient occlusion: less light from all directions where the model itself blocks it; auto: where an environment lights the model, on all of it that no clip moves, unless the shape is too fine for the 32,768 cubes in which it is measured", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
 GN_OPTION(.name = "gather", .section = "render", .kind = GN_KIND_CHOICE, .choices = gathers, .value = "auto|none", .fallback = "auto",
           .help = "soft shadows of a scene that stands still; auto: after a third of a second they converge to those from many points of each light, until something moves", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.gather))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
@@ -95,11 +95,11 @@ GN_OPTION(.name = "output", .section = "render", .kind = GN_KIND_CHOICE, .choice
 GN_OPTION(.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -24, .max = 24, .value = "auto|EV", .unit = "stops",
           .fallback = "auto", .help = "exposure; at 0 radiance 1 is white", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.exposure_ev))
 GN_OPTION(.name = "tone", .section = "render", .kind = GN_KIND_CHOICE, .choices = tones, .value = "OPERATOR", .fallback = "auto",
-          .help = "tone mapping; auto: neutral for a scene without lights of its own, else none; never with --output linear, .pfm or --aov", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_LIVE, .offset = FIELD(render.tone))
+          .help = "tone mapping; auto: neutral for a scene without lights of its own, else none; never with --output linear, .pfm or --aov", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.tone))
 GN_OPTION(.name = "background", .section = "render", .kind = GN_KIND_COLOR, .choices = backgrounds, .value = "COLOUR", .fallback = "auto",
           .help = "what is behind the scene: a colour #rrggbb; auto: gnomon_background, else a grey in the light of the studio where that lights the scene, else sky; sky: the mean of gnomon_sky and gnomon_ground; transparent: .png files get straight alpha, screens black", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.background))
 GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "auto",
-          .help = "multisampling; auto: 4 in .png files, and on screens where the GPU keeps samples on its chip (tiling GPUs), if they take at most 256 MB; else 0, as in windows drawn by software, with --output linear, .pfm, --aov and --shadow truth", .commands = DRAW | BIT(INSPECT), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
+          .help = "multisampling; auto: 4 in .png files, and on screens where the GPU keeps samples on its chip (tiling GPUs), if they take at most 256 MB; else 0, as in windows drawn by software, with --output linear, .pfm, --aov and --shadow truth", .commands = DRAW | MODEL, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",
@@ -226,7 +226,7 @@ GN_OPTION(.name = "here", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(run.mode))
 GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.out))
+          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder; of fit: a kiosk.ini, over no other one", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE) | BIT(FIT), .offset = FIELD(run.out))
 GN_OPTION(.name = "simplify", .kind = GN_KIND_NUMBER, .min = 0.001, .max = 1, .value = "RATIO", .fallback = "1",
           .help = "keep this share of each mesh's triangles, or more where it would move by over 1/50 of its size", .commands = BIT(BAKE), .offset = FIELD(run.simplify))
 GN_OPTION(.name = "rollback", .kind = GN_KIND_FLAG,
@@ -236,7 +236,7 @@ GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",
 GN_OPTION(.name = "frames", .kind = GN_KIND_INT, .min = 1, .max = 1000000, .value = "N",
           .help = "number of frames; show exits after them", .commands = BIT(SHOW) | BIT(RENDER) | BIT(BENCH), .offset = FIELD(run.frames))
 GN_OPTION(.name = "fps", .kind = GN_KIND_NUMBER, .min = .001, .max = 1000, .value = "F", .unit = "frames per second", .fallback = "60",
-          .help = "step of time between frames", .commands = BIT(RENDER), .offset = FIELD(run.fps))
+          .help = "step of time between frames; of fit: how many are wanted", .commands = BIT(RENDER) | BIT(FIT), .offset = FIELD(run.fps))
 GN_OPTION(.name = "samples", .kind = GN_KIND_INT, .min = 1, .max = 65536, .value = "N", .unit = "points", .fallback = "64",
           .help = "points of a light's area that --shadow truth casts rays to; 1: its middle", .commands = BIT(RENDER), .offset = FIELD(run.samples))
 GN_OPTION(.name = "plan", .kind = GN_KIND_FLAG,
@@ -264,9 +264,9 @@ GN_OPTION(.name = "reach", .kind = GN_KIND_NUMBER, .max = 1000, .value = "TEXELS
 GN_OPTION(.name = "make-truth", .kind = GN_KIND_FLAG,
           .help = "cast the rays of the scene that --truth names, and write the truth beside it", .commands = BIT(SCORE), .offset = FIELD(run.make_truth))
 GN_OPTION(.name = "json", .kind = GN_KIND_FLAG,
-          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.json))
+          .help = "print JSON", .commands = BIT(BENCH) | BIT(INSPECT) | BIT(FIT) | BIT(DOCTOR) | BIT(CTL) | BIT(COMPARE) | BIT(SCORE) | BIT(LESSON) | BIT(BAKE), .offset = FIELD(run.json))
 GN_OPTION(.name = "for", .kind = GN_KIND_CHOICE, .choices = gpus, .value = "GPU", .fallback = "none",
-          .help = "also print how long the GPU of this board takes for a frame at least, what bounds each pass and what to change: pi4, pi5, g31, g52, g610, a618 or a660", .commands = BIT(INSPECT), .offset = FIELD(run.on_gpu))
+          .help = "also print how long the GPU of this board takes for a frame at least, what bounds each pass and what to change; of fit: the board: pi4, pi5, g31, g52, g610, a618 or a660", .commands = BIT(INSPECT) | BIT(FIT) | BIT(BENCH), .offset = FIELD(run.on_gpu))
 GN_OPTION(.name = "csv", .kind = GN_KIND_FLAG,
           .help = "print CSV: a line for each scene and technique, or picture and class", .commands = BIT(BENCH) | BIT(SCORE), .offset = FIELD(run.csv))
 GN_OPTION(.name = "move-lights", .kind = GN_KIND_FLAG,

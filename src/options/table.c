@@ -13,6 +13,7 @@
 #define BIT(command) (1u << GN_COMMAND_##command)
 #define KIOSK        (BIT(AUTO) | BIT(SHOW))
 #define DRAW         (KIOSK | BIT(RENDER) | BIT(BENCH))
+#define MODEL        (BIT(INSPECT) | BIT(FIT))
 #define ANY          ((1u << GN_COMMAND_COUNT) - 1)
 #define FIELD(name)  offsetof(struct gn_settings, name)
 #define LIGHT(name)  offsetof(struct gn_light_opts, name)

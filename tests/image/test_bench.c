@@ -2,6 +2,7 @@
  * them, and what it refuses. Nothing here depends on how fast the machine is. */
 
 #include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -227,6 +228,46 @@ static void test_several_scenes_are_measured_one_after_the_other(void **state) {
     assert_int_equal(BENCH(SCENE, "--csv", "--json"), 2);
 }
 
+/* What inspect prints for the same technique at the same size, in each run; and as a text. */
+static void test_each_run_has_its_time_on_a_board(void **state) {
+    (void)state;
+    static const char *const techniques[] = {"pcf", "none"}, *const numbers[] = {
+                                                                 "each_frame_ms", "all_ms",
+                                                                 "width_px", "msaa"};
+    assert_int_equal(BENCH(SCENE, "--json", "--size", "160x90", "--frames", "1", "--shadow",
+                           "pcf,none", "--for", "g52"),
+                     0);
+    json_t *json = bench_json();
+    double ms[2];
+    for (size_t i = 0; i < 2; i++) {
+        struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+        const char *const argv[] = {gn_shot_program(), "inspect",     SCENE,   "--json",
+                                    "--size",          "160x90",      "--for", "g52",
+                                    "--shadow",        techniques[i], NULL};
+        json_t *run = json_array_get(json_object_get(json, "runs"), i);
+        if (!gn_run(&result, argv, 0, &err)) fail_msg("%s", err.text);
+        json_t *inspected = bench_json(), *time = json_object_get(run, "time"),
+               *same = json_object_get(inspected, "time");
+        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++) { /* of 9 and 7 digits */
+            const double here = json_number_value(json_object_get(time, numbers[k])),
+                         there = json_number_value(json_object_get(same, numbers[k]));
+            assert_true(here > 0 && fabs(here - there) <= 1e-5 * there);
+        }
+        assert_string_equal(text_of(time, "board"), text_of(same, "board"));
+        assert_int_equal(json_array_size(json_object_get(time, "passes")),
+                         json_array_size(json_object_get(same, "passes")));
+        ms[i] = json_number_value(json_object_get(time, "each_frame_ms"));
+        json_decref(inspected);
+    }
+    assert_true(ms[0] > ms[1] && ms[1] > 0);
+    json_decref(json);
+    assert_int_equal(BENCH(SCENE, "--size", "160x90", "--frames", "1", "--for", "g52"), 0);
+    assert_non_null(
+        strstr(result.out, "Time on RK3566 and RK3568, Mali-G52 of one core at 160x90"));
+    assert_int_equal(BENCH(SCENE, "--csv", "--for", "g52"), 2);
+    assert_int_equal(BENCH(SCENE, "--move-lights", "--for", "g52"), 2);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_json_has_every_field_and_no_other),
@@ -239,6 +280,7 @@ int main(void) {
         cmocka_unit_test(test_a_missing_scene_is_the_world_saying_no),
         cmocka_unit_test(test_what_moves_is_drawn_into_maps_again),
         cmocka_unit_test(test_several_scenes_are_measured_one_after_the_other),
+        cmocka_unit_test(test_each_run_has_its_time_on_a_board),
     };
     return RUN(tests);
 }

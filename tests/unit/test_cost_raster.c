@@ -1,7 +1,5 @@
-/* What triangles shade, against a rasteriser that shares nothing with the one tested: it clips
- * nothing, but has edges and depth as functions of homogeneous corners (Olano, Greer 1997), in
- * double precision, and asks every sample of every pixel. Corners are not placed on a grid there,
- * so few pixels differ.
+/* What triangles shade, against a rasteriser that shares nothing with the one tested
+ * (unit/plain_raster.h). Corners are not placed on a grid there, so few pixels differ.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -9,86 +7,14 @@
 
 #include "cost/raster.h"
 #include "unit/check.h"
+#include "unit/plain_raster.h"
 
-enum { WIDTH = 96, HEIGHT = 70, MOST_SAMPLES = 4, LARGE_PX = 100 };
-
-struct plain { /* the other one */
-    double depth[HEIGHT][WIDTH][MOST_SAMPLES];
-    int samples;
-    uint64_t pixels, lanes;
-};
+enum { WIDTH = GN_PLAIN_WIDTH, HEIGHT = GN_PLAIN_HEIGHT, LARGE_PX = 100 };
 
 static uint32_t seed = 1;
 static double random_in(double least, double most) {
     seed = seed * 1664525u + 1013904223u;
     return least + (most - least) * (seed >> 8) / 16777216.0;
-}
-
-static void cross(const double a[3], const double b[3], double out[3]) {
-    for (int k = 0; k < 3; k++)
-        out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-/* Where a sample lies: those of GL's drivers. */
-static void place_sample(int samples, int k, int x, int y, double ndc[2]) {
-    static const double four[4][2] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}}, /* sixteenths */
-        two[2][2] = {{12, 12}, {4, 4}};
-    const double at[2] = {samples == 4   ? four[k][0] / 16
-                          : samples == 2 ? two[k][0] / 16
-                                         : .5,
-                          samples == 4   ? four[k][1] / 16
-                          : samples == 2 ? two[k][1] / 16
-                                         : .5};
-    ndc[0] = 2 * (x + at[0]) / WIDTH - 1;
-    ndc[1] = 2 * (y + at[1]) / HEIGHT - 1;
-}
-
-static bool covers(const double edges[3][3], double sign, const double clip[3][4],
-                   const double ndc[2], double *depth) {
-    double weight[3], w = 0, z = 0;
-    for (int i = 0; i < 3; i++) {
-        weight[i] = sign * (edges[i][0] * ndc[0] + edges[i][1] * ndc[1] + edges[i][2]);
-        if (weight[i] < 0) return false;
-    }
-    for (int i = 0; i < 3; i++) {
-        w += weight[i] * clip[i][3];
-        z += weight[i] * clip[i][2];
-    }
-    *depth = z / w / 2 + .5;
-    return w > 0 && *depth >= 0 && *depth <= 1;
-}
-
-static bool shade_pixel(struct plain *p, const double edges[3][3], double sign,
-                        const double clip[3][4], int x, int y) {
-    bool shown = false;
-    for (int k = 0; k < p->samples; k++) {
-        double ndc[2], depth;
-        place_sample(p->samples, k, x, y, ndc);
-        if (!covers(edges, sign, clip, ndc, &depth) || depth > p->depth[y][x][k]) continue;
-        p->depth[y][x][k] = depth;
-        shown = true;
-    }
-    return shown;
-}
-
-/* The determinant's sign says how it winds, also where corners are behind the eye. */
-static void draw_plain(struct plain *p, const double clip[3][4], int cull) {
-    double corner[3][3], edges[3][3], det = 0;
-    for (int i = 0; i < 3; i++)
-        memcpy(corner[i], (double[]){clip[i][0], clip[i][1], clip[i][3]}, sizeof corner[i]);
-    for (int i = 0; i < 3; i++) cross(corner[(i + 1) % 3], corner[(i + 2) % 3], edges[i]);
-    for (int k = 0; k < 3; k++) det += corner[0][k] * edges[0][k];
-    if ((cull == GN_RASTER_CULL_BACK && det < 0) || (cull == GN_RASTER_CULL_FRONT && det > 0))
-        return;
-    for (int y = 0; y < HEIGHT; y += 2)
-        for (int x = 0; x < WIDTH; x += 2) {
-            unsigned shown = 0;
-            for (int i = 0; i < 4; i++)
-                shown += shade_pixel(p, (const double(*)[3])edges, det < 0 ? -1 : 1, clip,
-                                     x + i % 2, y + i / 2);
-            p->pixels += shown;
-            p->lanes += shown ? 4 : 0;
-        }
 }
 
 static void assert_close(uint64_t a, uint64_t b, double share) {
@@ -99,13 +25,11 @@ static void assert_close(uint64_t a, uint64_t b, double share) {
 /* Triangles of a size, in pixels; large ones through the near plane, too, and beyond the picture:
  * what is clipped there is two triangles, whose common quads are shaded twice. */
 static void compare(double size_px, int samples, int cull, int count) {
-    struct plain *plain = calloc(1, sizeof *plain);
+    struct gn_plain_raster *plain = gn_plain_create(samples);
     struct gn_raster raster;
     gn_raster_create(&raster, WIDTH, HEIGHT, samples);
     raster.tests_depth = raster.writes_depth = true;
     raster.cull = (enum gn_raster_cull)cull;
-    plain->samples = samples;
-    for (int i = 0; i < WIDTH * HEIGHT * MOST_SAMPLES; i++) (&plain->depth[0][0][0])[i] = 1;
     for (int n = 0; n < count; n++) {
         struct gn_raster_vertex v[3] = {0};
         double clip[3][4];
@@ -121,7 +45,7 @@ static void compare(double size_px, int samples, int cull, int count) {
             clip[i][3] = w;
             memcpy(v[i].clip, clip[i], sizeof clip[i]);
         }
-        draw_plain(plain, (const double(*)[4])clip, cull);
+        gn_plain_triangle(plain, (const double(*)[4])clip, cull, true);
         gn_raster_triangle(&raster, v);
     }
     assert_true(raster.count.pixels > 500);
