@@ -89,7 +89,7 @@ struct gn_import_alpha gn_import_picture_alpha(struct gn_import *import,
         return (struct gn_import_alpha){0};
     count.width_px = file.px[0];
     if (!gn_png_is_interlaced(file.data)) {
-        if (!gn_png_rows(file.data, file.size, file.px, count_row, &count, &unused))
+        if (!gn_png_rows(file.data, file.size, file.px, file.px[1], count_row, &count, &unused))
             count = (struct count){0};
     } else if (read_pixels(import, picture, &pixels)) {
         count.width_px = pixels.px[0];
