@@ -100,7 +100,7 @@ static void test_bombs_one_after_another(void **state) {
         put_file(path, &bomb);
         const double ms = show_file(show, path);
         if (ms > most_ms) most_ms = ms;
-        if (ms > MOST_MS / 4 || getenv("GN_VERBOSE"))
+        if (ms > MOST_MS / 4.0 || getenv("GN_VERBOSE"))
             printf("%d: %.0f ms, %s\n", (int)number, ms, kinds);
         if (ms > MOST_MS) fail_msg("bomb %d (%s): a step takes %.0f ms", (int)number, kinds, ms);
         remove(path);

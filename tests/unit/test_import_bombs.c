@@ -111,7 +111,7 @@ static void test_nested_nodes_of_collada(void **state) {
     static const char leaf[] = "<instance_geometry url=\"#g\"/>";
     char many[20 * sizeof leaf] = "";
     (void)state;
-    for (int i = 0; i < 20; i++) strcat(many, leaf);
+    for (size_t i = 0; i < 20; i++) memcpy(many + i * (sizeof leaf - 1), leaf, sizeof leaf);
     put_collada("ten.dae", 8, 10, leaf);
     put_collada("two.dae", 25, 2, leaf);
     put_collada("empty.dae", 8, 10, "");
