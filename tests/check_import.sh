@@ -66,7 +66,7 @@ expect 0 '' prlimit --cpu=8 "$import" --time 50 "$folder/m/objects.obj" -o "$fol
 expect 1 'polygon.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N, or gnomon-import --time N' "$import" --time 1 "$folder/m/polygon.obj" -o "$folder/f.glb"
 expect 1 'polygon.obj: not read within 1 s; raise the limit: gnomon --limit seconds=N' "$gnomon" inspect --limit seconds=1 "$folder/m/polygon.obj"
 expect 1 'fan.obj: needs more than 80 MB of memory' "$import" --memory 80 "$folder/m/fan.obj" -o "$folder/f.glb"
-expect 1 'needs more than 80 MB of memory' "$gnomon" inspect --limit memory_mb=40 "$folder/m/fan.obj"
+expect 1 'fan.obj: needs more than 80 MB of memory; raise the limit: gnomon --limit memory_mb=N, or gnomon-import --memory N' "$gnomon" inspect --limit memory_mb=80 "$folder/m/fan.obj"
 expect 0 '' "$gnomon" inspect --limit file_mb=1048576 --limit memory_mb=1048576 "$model"
 expect 1 'fan.obj: larger than the limit' "$import" --file 1 "$folder/m/fan.obj" -o "$folder/f.glb"
 [ ! -e "$folder/f.glb" ] || complain 'a failure left a file'
@@ -121,7 +121,7 @@ if [ ! -e /usr/local/bin/gnomon-import ]; then
 fi
 fake 'echo chatter; echo more >&2; kill -SEGV $$'
 expect 1 'a.obj: gnomon-import crashes (Segmentation fault)' "$folder/bin/gnomon" inspect "$model"
-fake 'echo "gnomon-import: $4: no" >&2; echo "gnomon-import: warning: not told" >&2; exit 1'
+fake 'for last; do :; done; echo "gnomon-import: $last: no" >&2; echo "gnomon-import: warning: not told" >&2; exit 1'
 expect 1 'a.obj: no' "$folder/bin/gnomon" inspect "$model"
 fake 'echo garbage, and more than a header of it'
 expect 1 'a.obj: byte 0: neither .glb' "$folder/bin/gnomon" inspect "$model"

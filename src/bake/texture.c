@@ -90,7 +90,7 @@ static bool scale(struct gn_baker *b, enum gn_format format, const struct gn_byt
                   struct gn_bytes *out, struct gn_err *why) {
     const struct gn_scene_limits limits = gn_scene_limits_or_default(b->opts->limits);
     const uint32_t limit = (uint32_t)b->opts->texture_limit_px;
-    struct gn_picture_file file = {format, from->data, from->size, {0}};
+    struct gn_picture_file file = {.kind = format, .data = from->data, .size = from->size};
     uint32_t to[2], shrink = 0;
     if (format >= GN_FORMAT_KTX2 || (format == GN_FORMAT_WEBP && !gn_webp_is_read()) ||
         !gn_picture_size(&file, why))

@@ -9,6 +9,11 @@ static uint64_t png_row_bytes(const uint8_t *data, size_t size, const uint32_t p
     return gn_png_work_bytes(data, size, px) + UINT64_C(4) * px[0];
 }
 
+static bool png_all_rows(const uint8_t *data, size_t size, const uint32_t px[2],
+                         gn_picture_row *row, void *user, struct gn_err *err) {
+    return gn_png_rows(data, size, px, px[1], row, user, err);
+}
+
 static const struct format {
     const char *magic, *form, *mime; /* first bytes, and those from byte 8 on */
     size_t magic_size;
@@ -21,7 +26,7 @@ static const struct format {
                  struct gn_err *);
 } FORMATS[] = {
     {"\x89PNG\r\n\x1a\n", "", "image/png", 8, gn_png_size, gn_png_work_bytes, gn_png_read,
-     png_row_bytes, gn_png_rows},
+     png_row_bytes, png_all_rows},
     {"\xff\xd8\xff", "", "image/jpeg", 3, gn_jpeg_size, gn_jpeg_work_bytes, gn_jpeg_read, NULL,
      NULL},
     {"RIFF", "WEBP", "image/webp", 4, gn_webp_size, gn_webp_work_bytes, gn_webp_read, NULL, NULL},
@@ -53,6 +58,10 @@ static bool has_rows(const struct gn_picture_file *file) {
            (file->kind != GN_FORMAT_PNG || !gn_png_is_interlaced(file->data));
 }
 
+bool gn_picture_can_stop(const struct gn_picture_file *file) {
+    return has_rows(file) && file->kind == GN_FORMAT_PNG;
+}
+
 uint32_t gn_picture_most_shrink(const struct gn_picture_file *file) {
     return has_rows(file) ? 0 : GN_SHRINK_MOST;
 }
@@ -69,7 +78,7 @@ static bool is_whole(const struct gn_picture_file *file, const uint32_t to[2]) {
 uint64_t gn_picture_work_bytes(const struct gn_picture_file *file, const uint32_t to[2],
                                uint32_t shrink) {
     const struct format *f = &FORMATS[file->kind];
-    if (!is_whole(file, to) && has_rows(file))
+    if ((!is_whole(file, to) && has_rows(file)) || file->rows > 0)
         return f->row_bytes(file->data, file->size, file->px) + gn_scaler_bytes(to);
     const uint64_t bytes = f->work_bytes(file->data, file->size, file->px);
     return is_whole(file, to) ? bytes
@@ -88,9 +97,31 @@ static bool read_to_scale(const struct gn_picture_file *file, uint32_t shrink,
     return done;
 }
 
+/* The mean of so many texels, in all that follow. */
+static void fill_mean(uint8_t *rgba, size_t read, size_t all) {
+    uint64_t sums[4] = {0};
+    for (size_t i = 0; i < 4 * read; i++) sums[i % 4] += rgba[i];
+    for (size_t i = 4 * read; i < 4 * all; i++) rgba[i] = (uint8_t)(sums[i % 4] / read);
+}
+
+static bool decode_top(const struct gn_picture_file *file, enum gn_scale_kind kind, uint8_t *rgba,
+                       const uint32_t to[2], struct gn_err *err) {
+    struct gn_scaler scaler;
+    const uint32_t from[] = {file->px[0], file->rows};
+    uint32_t top[] = {to[0], (uint32_t)((uint64_t)to[1] * file->rows / file->px[1])};
+    if (top[1] == 0) top[1] = 1;
+    if (!gn_scaler_init(&scaler, from, kind, rgba, top)) return gn_fail(err, "out of memory");
+    const bool done =
+        gn_png_rows(file->data, file->size, file->px, file->rows, gn_scaler_row, &scaler, err);
+    gn_scaler_finish(&scaler);
+    if (done) fill_mean(rgba, (size_t)top[0] * top[1], (size_t)to[0] * to[1]);
+    return done;
+}
+
 bool gn_picture_decode(const struct gn_picture_file *file, uint32_t shrink, enum gn_scale_kind kind,
                        uint8_t *rgba, const uint32_t to[2], struct gn_err *err) {
     const struct format *f = &FORMATS[file->kind];
+    if (file->rows > 0) return decode_top(file, kind, rgba, to, err);
     if (is_whole(file, to)) return f->read(file->data, file->size, file->px, 0, rgba, err);
     struct gn_scaler scaler;
     const uint32_t from[] = {gn_shrunk_px(file->px[0], shrink), gn_shrunk_px(file->px[1], shrink)};

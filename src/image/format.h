@@ -18,7 +18,10 @@ struct gn_picture_file {
     const uint8_t *data;
     size_t size;
     uint32_t px[2]; /* filled by gn_picture_size */
+    uint32_t rows;  /* that are decoded, where gn_picture_can_stop; what the others would be has the
+                       mean colour of these. 0: all */
 };
+bool gn_picture_can_stop(const struct gn_picture_file *file); /* after some rows */
 bool gn_picture_size(struct gn_picture_file *file, struct gn_err *err);
 /* The largest shrink of read.h that helps its decoder: 0 where it reads by rows. */
 uint32_t gn_picture_most_shrink(const struct gn_picture_file *file);

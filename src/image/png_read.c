@@ -144,11 +144,11 @@ static bool decode_passes(struct reader *reader, const uint32_t px[2], uint32_t 
     return true;
 }
 
-static bool decode_rows(struct reader *reader, const uint32_t px[2], gn_picture_row *row,
-                        void *user) {
+static bool decode_rows(struct reader *reader, const uint32_t px[2], uint32_t count,
+                        gn_picture_row *row, void *user) {
     if (setjmp(reader->leave)) return false;
     begin_rows(reader, px);
-    for (uint32_t y = 0; y < px[1]; y++) {
+    for (uint32_t y = 0; y < count; y++) {
         png_read_row(reader->png, reader->row, NULL);
         row(user, reader->row);
     }
@@ -179,10 +179,11 @@ bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint32_
     return done;
 }
 
-bool gn_png_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_picture_row *row,
-                 void *user, struct gn_err *err) {
+bool gn_png_rows(const uint8_t *data, size_t size, const uint32_t px[2], uint32_t count,
+                 gn_picture_row *row, void *user, struct gn_err *err) {
     struct reader reader;
-    const bool done = open_png(&reader, data, size, err) && decode_rows(&reader, px, row, user);
+    const bool done =
+        open_png(&reader, data, size, err) && decode_rows(&reader, px, count, row, user);
     close_png(&reader);
     return done;
 }

@@ -20,11 +20,12 @@ typedef void gn_picture_row(void *user, const uint8_t *rgba);
 bool gn_png_size(const uint8_t *data, size_t size, uint32_t px[2], struct gn_err *err);
 bool gn_png_read(const uint8_t *data, size_t size, const uint32_t px[2], uint32_t shrink,
                  uint8_t *rgba, struct gn_err *err);
-/* By rows, of one whose rows follow each other in the file. A shrunk one is of the first passes. */
+/* So many rows from the top, of one whose rows follow each other in the file. A shrunk one is of
+ * the first passes. */
 bool gn_png_is_interlaced(const uint8_t *data);
 bool gn_png_is_deep(const uint8_t *data); /* 16 bits a channel */
-bool gn_png_rows(const uint8_t *data, size_t size, const uint32_t px[2], gn_picture_row *row,
-                 void *user, struct gn_err *err);
+bool gn_png_rows(const uint8_t *data, size_t size, const uint32_t px[2], uint32_t count,
+                 gn_picture_row *row, void *user, struct gn_err *err);
 /* All of it in 16 bits each, of the machine's byte order; of 8 bits v becomes 257 v. */
 bool gn_png_read_16(const uint8_t *data, size_t size, const uint32_t px[2], uint16_t *rgba,
                     struct gn_err *err);

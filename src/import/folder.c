@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/memory.h"
 #include "core/opener.h"
 #include "import/import.h"
 
@@ -20,20 +21,36 @@ bool gn_import_folder_find(struct gn_import *import) {
     return all < (int)sizeof import->name || gn_fail(import->err, "%s: path too long", path);
 }
 
+/* Processor time that any file may take, and bytes read for each second more. A large file has as
+ * long on a slow board, a small one that asks for much work ends. Sanitizers are slower. */
+enum { LEAST_S = GN_LIMITS_MEMORY ? 5 : 60, BYTES_A_SECOND = 1 << 19 };
+
+void gn_import_extend_time(struct gn_import *import, size_t bytes) {
+    const struct gn_import_opts *opts = import->opts;
+    if (!opts->time_by_size) return;
+    import->read_bytes += bytes;
+    const uint64_t wanted_s = LEAST_S + import->read_bytes / BYTES_A_SECOND;
+    import->report->time_s = wanted_s < (uint64_t)opts->time_s ? (int)wanted_s : opts->time_s;
+}
+
 static size_t file_limit(const struct gn_import *import) {
     return (size_t)import->opts->file_mb << 20;
 }
 
-bool gn_import_model_read(const struct gn_import *import, struct gn_bytes *bytes,
-                          struct gn_err *err) {
+bool gn_import_model_read(struct gn_import *import, struct gn_bytes *bytes, struct gn_err *err) {
     const int fd = gn_opener_ask(import->opener, "", err);
     *bytes = (struct gn_bytes){0};
-    return fd >= 0 && gn_file_read_fd(fd, import->opts->model, file_limit(import), bytes, err);
+    const bool ok =
+        fd >= 0 && gn_file_read_fd(fd, import->opts->model, file_limit(import), bytes, err);
+    if (import->read_bytes == 0) gn_import_extend_time(import, bytes->size); /* it is read again */
+    return ok;
 }
 
-static bool read_in(const struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
+static bool read_in(struct gn_import *import, const char *relative, struct gn_bytes *bytes) {
     const int fd = gn_opener_ask(import->opener, relative, NULL);
-    return fd >= 0 && gn_file_read_fd(fd, relative, file_limit(import), bytes, NULL);
+    const bool ok = fd >= 0 && gn_file_read_fd(fd, relative, file_limit(import), bytes, NULL);
+    gn_import_extend_time(import, ok ? bytes->size : 0);
+    return ok;
 }
 
 const char *gn_import_relative_name(const struct gn_import *import, const char *name) {
@@ -44,8 +61,7 @@ const char *gn_import_relative_name(const struct gn_import *import, const char *
     return name;
 }
 
-bool gn_import_folder_read(const struct gn_import *import, const char *name,
-                           struct gn_bytes *bytes) {
+bool gn_import_folder_read(struct gn_import *import, const char *name, struct gn_bytes *bytes) {
     char plain[PATH_MAX];
     *bytes = (struct gn_bytes){0};
     if (!*name || snprintf(plain, sizeof plain, "%s", name) >= (int)sizeof plain) return false;

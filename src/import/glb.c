@@ -119,11 +119,13 @@ bool gn_glb_write(struct gn_glb *glb, int fd, struct gn_err *err) {
     enum { HEADER = 12, CHUNK = 8 };
     if (glb->size)
         gn_glb_add(glb, "buffers", json_pack("{s:I}", "byteLength", (json_int_t)glb->size));
+    if (glb->size) glb->bin = gn_import_grow(glb->bin, glb->room = glb->size);
     char *text = json_dumps(glb->root, JSON_COMPACT | JSON_REAL_PRECISION(9));
     size_t length = text ? strlen(text) : 0, bin = glb->size ? CHUNK + padded_size(glb->size) : 0;
     size_t total = HEADER + CHUNK + padded_size(length) + bin;
     uint32_t head[3] = {0x46546c67, 2, (uint32_t)total}; /* "glTF" */
     bool ok = false;
+    gn_import_reserve(total);
     if (total > UINT32_MAX)
         gn_fail(err, "too large for a .glb (4 GB)");
     else if (gn_disk_write_all(&gn_disk, fd, head, sizeof head) &&

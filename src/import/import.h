@@ -17,17 +17,24 @@ enum gn_import_up { GN_IMPORT_UP_AUTO, GN_IMPORT_UP_Y, GN_IMPORT_UP_Z };
 struct gn_import_opts {
     const char *model, *out; /* out NULL: the model's name with .glb */
     enum gn_import_up up;
-    int memory_mb, time_s, file_mb; /* limits: address space, CPU and wall time, size of a file */
+    int memory_mb, time_s, file_mb; /* limits: address space with the .glb beside it, CPU and wall
+                                       time, size of a file */
+    bool time_by_size;              /* less processor time where little is read */
 };
 
 struct gn_import_report { /* shared between the child and its parent */
     bool done;            /* the .glb is complete */
+    int time_s;           /* the limit on processor time, which the parent enforces */
+    int pid;              /* of the child */
     struct gn_err err;    /* the reason if not */
     struct gn_warnings warnings;
 };
 
 struct gn_import {
     const struct gn_import_opts *opts;
+    struct gn_import_report *report;
+    uint64_t read_bytes;         /* of the model and its files */
+    uint64_t read_texels;        /* of pictures that were decoded */
     int opener;                  /* to the parent, which opens files: core/opener.h */
     enum gn_model_format format; /* GN_MODEL_FORMAT_COUNT: glTF */
     char folder[PATH_MAX];       /* real path of the model's folder; "" for "/" */
@@ -63,19 +70,21 @@ void gn_import_memory_begin(const struct gn_import_opts *opts, struct gn_import_
 /* Returns size bytes, zeroed, or reports the failure and exits. */
 void *gn_import_alloc(size_t size);
 void *gn_import_grow(void *old, size_t size); /* as realloc */
+/* Keeps so much of the limit free for what lies outside of the process, or exits as they do. */
+void gn_import_reserve(size_t size);
 void gn_import_no_memory(void) __attribute__((noreturn));
 
 /* ---- folder.c ---- */
 
+/* So many bytes were read: where the limit on time goes by them, processor time for them. */
+void gn_import_extend_time(struct gn_import *import, size_t bytes);
 /* Fills folder and name. Needs access to files. */
 bool gn_import_folder_find(struct gn_import *import);
 /* Reads the model itself. */
-bool gn_import_model_read(const struct gn_import *import, struct gn_bytes *bytes,
-                          struct gn_err *err);
+bool gn_import_model_read(struct gn_import *import, struct gn_bytes *bytes, struct gn_err *err);
 /* Reads a file that the model names, by its path if that lies in the folder, else by its base name.
  * Returns false without a message if there is none. */
-bool gn_import_folder_read(const struct gn_import *import, const char *name,
-                           struct gn_bytes *bytes);
+bool gn_import_folder_read(struct gn_import *import, const char *name, struct gn_bytes *bytes);
 /* The name relative to the folder where it begins with it, without "./" and "file://". */
 const char *gn_import_relative_name(const struct gn_import *import, const char *name);
 /* ---- the scene ---- */

@@ -1,6 +1,7 @@
 /* gnomon-import: parses arguments, converts the model in a child under limits and reports the
  * result in one line. This process never calls assimp. */
 #include <errno.h>
+#include <fcntl.h>
 #include <getopt.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -8,6 +9,7 @@
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "core/child.h"
@@ -29,7 +31,8 @@ static const char help[] =
     "state;\n"
     "                         z for STL and PLY; y for OBJ)\n"
     "      --memory MB        memory limit (2048, at most half of the machine's)\n"
-    "      --time S           time limit (60 seconds)\n"
+    "      --time S           time limit (60 seconds, and less processor time for small "
+    "files)\n"
     "      --file MB          size limit of files read and written (512)\n"
     "  -h, --help             this text\n"
     "      --version          the version\n"
@@ -79,7 +82,10 @@ static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struc
         case OPTION_MEMORY:
             ok = parse_number("memory", optarg, 1 << 20, &opts->memory_mb, err);
             break;
-        case OPTION_TIME: ok = parse_number("time", optarg, 86400, &opts->time_s, err); break;
+        case OPTION_TIME:
+            ok = parse_number("time", optarg, 86400, &opts->time_s, err);
+            opts->time_by_size = false;
+            break;
         case OPTION_FILE: ok = parse_number("file", optarg, 4095, &opts->file_mb, err); break;
         default: { /* in a group of short options only optopt has the bad letter */
             const char *last = argv[optind - 1], letter[] = {'-', (char)optopt, 0};
@@ -105,6 +111,8 @@ static bool parse_args(int argc, char **argv, struct gn_import_opts *opts, struc
 struct job {
     const struct gn_import_opts *opts;
     int fd;                  /* memfd; the kernel frees it with its last descriptor */
+    bool is_output;          /* it is already where the output goes */
+    atomic_bool *late;       /* the child has had all of its processor time */
     int child_end;           /* of the socketpair on which the child asks for files */
     struct gn_opener opener; /* its other end */
 };
@@ -114,18 +122,29 @@ static void run_child(void *shared, const void *argument) {
     gn_import_work(job->opts, job->fd, job->child_end, shared);
 }
 
-static void open_file(void *shared, const void *argument) {
-    const struct job *job = argument;
-    (void)shared;
-    gn_opener_serve(&job->opener);
+/* RLIMIT_CPU goes by ticks, of which a process on a busy machine sees too few. */
+static bool is_late(const struct gn_import_report *report) {
+    struct timespec used;
+    clockid_t clock;
+    return report->pid > 0 && clock_getcpuclockid(report->pid, &clock) == 0 &&
+           clock_gettime(clock, &used) == 0 && used.tv_sec >= report->time_s;
 }
 
-static bool wait_child(const struct job *job, struct gn_import_report *report, struct gn_err *err) {
+static void watch_child(void *shared, const void *argument) {
+    const struct job *job = argument;
+    gn_opener_serve(&job->opener);
+    if (is_late(shared)) atomic_store(job->late, true);
+}
+
+static bool wait_child(struct job *job, struct gn_import_report *report, struct gn_err *err) {
     const struct gn_import_opts *o = job->opts;
+    atomic_bool late = false;
+    job->late = &late;
     const struct gn_child child = {.work = run_child,
-                                   .watch = open_file,
+                                   .watch = watch_child,
                                    .wake = job->opener.socket,
                                    .argument = job,
+                                   .cancel = &late,
                                    .stall_s = o->time_s};
     struct gn_err end = {0};
     if (gn_child_run(&child, report, &end)) {
@@ -133,17 +152,31 @@ static bool wait_child(const struct job *job, struct gn_import_report *report, s
         return report->done || err->text[0] ||
                gn_fail(err, "%s: the importer failed without a reason", o->model);
     }
-    if (strncmp(end.text, "hangs", 5) == 0)
+    if (late || strncmp(end.text, "hangs", 5) == 0)
         return gn_fail(err,
                        "%s: not read within %d s; raise the limit: gnomon --limit seconds=N, or "
                        "gnomon-import --time N",
-                       o->model, o->time_s);
+                       o->model, late ? report->time_s : o->time_s);
     return gn_fail(err, "%s: the importer %s on it; export it as .glb where it was made", o->model,
                    end.text);
 }
 
+/* gnomon reads the output from a file in memory on its standard output: that one is written, so
+ * that the .glb is not there twice. */
+static bool open_output(struct job *job, struct gn_err *err) {
+    struct stat info;
+    job->is_output = strcmp(job->opts->out, "/dev/stdout") == 0 &&
+                     fstat(STDOUT_FILENO, &info) == 0 && S_ISREG(info.st_mode) &&
+                     info.st_nlink == 0 && info.st_size == 0;
+    job->fd = job->is_output ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1)
+                             : memfd_create("gnomon-import", MFD_CLOEXEC);
+    return job->fd >= 0 || gn_fail(err, "%s: cannot create a memory file for its .glb: %s",
+                                   job->opts->model, strerror(errno));
+}
+
 static bool write_output(const struct job *job, struct gn_err *err) {
     struct stat info;
+    if (job->is_output) return true;
     void *data = fstat(job->fd, &info) == 0
                      ? mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, job->fd, 0)
                      : MAP_FAILED;
@@ -161,11 +194,9 @@ static bool run_job(const struct gn_import_opts *opts, struct gn_import_report *
     int ends[2] = {-1, -1};
     bool ok = false;
     if (slash) snprintf(folder, sizeof folder, "%.*s", (int)(slash - opts->model + 1), opts->model);
-    struct job job = {.opts = opts, .fd = memfd_create("gnomon-import", MFD_CLOEXEC)};
-    if (job.fd < 0)
-        gn_fail(err, "%s: cannot create a memory file for its .glb: %s", opts->model,
-                strerror(errno));
-    else if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+    struct job job = {.opts = opts};
+    if (!open_output(&job, err)) return false;
+    if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
         gn_fail(err, "%s: cannot connect to the importer: %s", opts->model, strerror(errno));
     else {
         job.child_end = ends[1];
@@ -199,6 +230,7 @@ static bool import_model(int argc, char **argv, struct gn_err *err) {
                                                : most_mb < 2048 ? (int)most_mb
                                                                 : 2048,
                                   .time_s = 60,
+                                  .time_by_size = true,
                                   .file_mb = 512};
     if (!parse_args(argc, argv, &opts, err)) return false;
     if (!opts.model) return true;

@@ -80,12 +80,16 @@ json_t *gn_import_matrix(const struct aiMatrix4x4 *matrix);
 
 /* ---- picture.c: alpha ---- */
 
-/* Classifies the alpha of a PNG; JPEGs and unreadable files have none. */
-struct gn_import_alpha gn_import_picture_alpha(const struct gn_bytes *picture);
+/* Pictures are decoded until 10 of the largest, of 67108864 texels, are; further ones cannot be.
+ *
+ * Classifies the alpha of a PNG; JPEGs and those that cannot be decoded have none. */
+struct gn_import_alpha gn_import_picture_alpha(struct gn_import *import,
+                                               const struct gn_bytes *picture);
 /* Makes a PNG of the base's colour (white if NULL) and the opacity map's alpha, or its red channel
- * if it has no alpha. Fails if one of them cannot be decoded. */
-bool gn_import_picture_merge(const struct gn_bytes *base, const struct gn_bytes *opacity,
-                             struct gn_bytes *png);
+ * if it has no alpha; halved until there is memory for it. Fails if one of them cannot be decoded.
+ */
+bool gn_import_picture_merge(struct gn_import *import, const struct gn_bytes *base,
+                             const struct gn_bytes *opacity, struct gn_bytes *png);
 /* "image/png", "image/jpeg" or NULL, by signature. */
 const char *gn_import_picture_type(const struct gn_bytes *picture);
 

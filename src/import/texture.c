@@ -85,7 +85,8 @@ static struct gn_import_texture make_image(struct gn_import *import,
     bool has_base = request->base[0] && fetch_image(import, request->base, &picture);
     bool has_opacity = request->opacity[0] && strcmp(request->base, request->opacity) != 0 &&
                        fetch_image(import, request->opacity, &opacity);
-    if (has_opacity && gn_import_picture_merge(has_base ? &picture : NULL, &opacity, &both)) {
+    if (has_opacity &&
+        gn_import_picture_merge(import, has_base ? &picture : NULL, &opacity, &both)) {
         gn_bytes_finish(&picture);
         picture = both;
     } else if (has_opacity)
@@ -98,7 +99,7 @@ static struct gn_import_texture make_image(struct gn_import *import,
             gn_glb_add(&import->glb, "images",
                        json_pack("{s:o,s:s,s:i}", "name", gn_glb_text(last_part(request->base)),
                                  "mimeType", gn_import_picture_type(&picture), "bufferView", view));
-        made.alpha = gn_import_picture_alpha(&picture);
+        made.alpha = gn_import_picture_alpha(import, &picture);
     }
     gn_bytes_finish(&picture);
     made.base = strdup(request->base);

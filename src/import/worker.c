@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "core/memory.h"
 #include "core/sandbox.h"
@@ -18,16 +19,20 @@ void gn_import_work(const struct gn_import_opts *opts, int fd, int opener,
                     struct gn_import_report *report) {
     static struct gn_import import;
     gn_import_memory_begin(opts, report);
+    report->time_s = opts->time_s;
+    report->pid = getpid();
     import = (struct gn_import){.opts = opts,
+                                .report = report,
                                 .opener = opener,
                                 .format = gn_model_format_of(opts->model),
                                 .warnings = &report->warnings,
                                 .err = &report->err};
     if (!gn_import_folder_find(&import)) return;
 
-    /* the parent enforces wall time; RLIMIT_CPU is a second line of defence */
+    /* the parent enforces the times; RLIMIT_CPU is a second line of defence */
     if (GN_LIMITS_MEMORY) limit_resource(RLIMIT_AS, (rlim_t)opts->memory_mb << 20);
     limit_resource(RLIMIT_CPU, (rlim_t)opts->time_s + 2);
+    gn_import_extend_time(&import, 0);
     limit_resource(RLIMIT_FSIZE, (rlim_t)opts->file_mb << 20);
     limit_resource(RLIMIT_CORE, 0);
     prctl(PR_SET_DUMPABLE, 0); /* also disables core dumps through a pipe handler */

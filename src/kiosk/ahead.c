@@ -128,8 +128,9 @@ static void drop_programs(struct gn_show_screen *s) {
     s->ahead.dropped = true;
 }
 
-/* Only while the wanted mode is shown and no scene is staged: their programs could be dropped. */
-static bool work_on_others(struct gn_show_screen *s) {
+/* Only while the wanted mode is shown and no scene is staged: their programs could be dropped. The
+ * plan of a mode whose programs are there takes time as well, of a scene with many items. */
+static bool work_on_others(struct gn_show_screen *s, int64_t until_ns) {
     const int shown = s->kiosk.shown.mode;
     if (!s->ahead.keeps) {
         gn_gl_keep_programs(s->stage.gl, plan_mode(s, &s->looks, &s->stage.shown, shown));
@@ -139,8 +140,10 @@ static bool work_on_others(struct gn_show_screen *s) {
     for (int i = 1; i < s->show->modes.count; i++) {
         const int mode = (shown + i) % s->show->modes.count;
         if (s->looks.made >> mode & 1) continue;
-        if (!warm_mode(s, &s->looks, &s->stage.shown, mode, false)) continue;
-        drop_programs(s);
+        if (warm_mode(s, &s->looks, &s->stage.shown, mode, false))
+            drop_programs(s);
+        else if (gn_loop_now_ns(s->show->loop) < until_ns)
+            continue;
         return true;
     }
     return false;
@@ -233,7 +236,7 @@ bool gn_show_has_work(const struct gn_show_screen *s) {
 }
 
 /* False: there was none. */
-static bool work_once(struct gn_show_screen *s) {
+static bool work_once(struct gn_show_screen *s, int64_t until_ns) {
     if (s->rules.fade_ns > 0 && !s->fade.prepared && s->show->counts.frames > 0) {
         struct gn_err unused = {0}; /* the first fade reports a failure */
         gn_gl_keep_prepare(s->stage.gl, &unused);
@@ -243,14 +246,14 @@ static bool work_once(struct gn_show_screen *s) {
     const int wanted = s->kiosk.wanted.mode;
     if (!(s->looks.ready >> wanted & 1) && warm_mode(s, &s->looks, &s->stage.shown, wanted, true))
         return true;
-    return wanted == s->kiosk.shown.mode && !s->staged.loaded && work_on_others(s);
+    return wanted == s->kiosk.shown.mode && !s->staged.loaded && work_on_others(s, until_ns);
 }
 
 void gn_show_work(struct gn_show_screen *s) {
     const int64_t period_ns = s->stage.display.screen.period_ns;
     const int64_t until_ns = gn_loop_now_ns(s->show->loop) + period_ns / 4;
     if (!gn_show_has_work(s)) return;
-    do s->ahead.idle = !work_once(s);
+    do s->ahead.idle = !work_once(s, until_ns);
     while (!s->ahead.idle && gn_kiosk_waits(&s->kiosk) && gn_loop_now_ns(s->show->loop) < until_ns);
     if (s->ahead.idle) {
         gn_gl_warm_end(s->stage.gl);

@@ -85,6 +85,7 @@ static struct gn_scene *load_once(struct gn_gltf *g, const uint8_t *data, size_t
     g->memory.scene = &holder->arena;
     g->scene = &holder->scene;
     g->memory.other_bytes = size;
+    g->read_bytes = size;
     bool done = gn_gltf_open(g, data, size);
     const size_t steps = sizeof STEPS / sizeof STEPS[0];
     for (size_t i = 0; done && i < steps; i++) {

@@ -142,10 +142,13 @@ static void measure_moving(struct gn_pose *pose) {
 
 void gn_pose_choose_variant(struct gn_pose *pose, int variant) {
     const struct gn_scene *scene = pose->scene;
-    if (pose->at.variant == variant) return;
+    const int before = pose->at.variant;
+    if (before == variant) return;
     pose->at.variant = variant;
-    for (uint32_t i = 0; i < scene->item_count; i++)
-        if (scene->items[i].hidden_in) pose_item(pose, i);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        const uint64_t hidden_in = scene->items[i].hidden_in;
+        if ((hidden_in >> (before + 1) ^ hidden_in >> (variant + 1)) & 1) pose_item(pose, i);
+    }
     measure_still(pose);
     measure_moving(pose);
 }

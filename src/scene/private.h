@@ -205,6 +205,7 @@ struct gn_gltf {
     uint64_t key_total;
     uint64_t decoded_bytes;  /* of the pictures in memory */
     uint64_t decode_work;    /* of all that were decoded, in loads before this one, too */
+    uint64_t read_bytes;     /* of files, this one's among them: time to decode goes by them, too */
     uint64_t damaged_work;   /* of those whose decoding failed */
     uint64_t closed_corners; /* of the geometries so far, tested for being closed or not */
     struct gn_scene *scene;
@@ -415,6 +416,8 @@ bool gn_gltf_halve_pictures(struct gn_gltf *g, const char *limit, uint64_t mb);
 
 /* The time of decoding one of that size, as texels. */
 uint64_t gn_gltf_picture_work(const uint32_t px[2]);
+/* What is left of it for pictures. */
+uint64_t gn_gltf_picture_time(const struct gn_gltf *g);
 /* Counts a picture that was decoded. */
 void gn_gltf_picture_count(struct gn_gltf *g, const struct gn_picture_need *need);
 

@@ -77,6 +77,7 @@ bool gn_uri_read(struct gn_gltf *g, int fd, const char *uri, struct gn_blob *out
     out->data = out->file.data;
     out->size = out->file.size;
     g->memory.other_bytes += out->size;
+    g->read_bytes += out->size;
     return true;
 }
 

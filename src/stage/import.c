@@ -17,7 +17,6 @@
 enum {
     GRACE_S = 15, /* it times out by itself, so long before it is killed */
     MOST_FILE_MB = 4095,
-    MOST_MEMORY_MB = 1 << 20, /* its largest value of --memory */
 };
 #define PROGRAM "gnomon-import"
 
@@ -66,8 +65,9 @@ static bool find_program(char *out, size_t size) {
 
 struct job {
     const char *program, *path;
-    uint64_t file_mb, memory_mb, seconds; /* 0: its defaults */
-    int glb, log;                         /* memfds: its output and its messages */
+    uint64_t file_mb, seconds; /* 0: its defaults */
+    uint64_t memory_mb;
+    int glb, log; /* memfds: its output and its messages */
 };
 
 /* At most that; 0 for a default, in place of which the program has its own. */
@@ -140,12 +140,12 @@ static char *run_import(const char *path, const struct gn_scene_limits *limits, 
                                        : "convert the file to .glb");
         return NULL;
     }
-    const struct gn_scene_limits usual = gn_scene_limits_or_default(NULL);
+    const struct gn_scene_limits usual = gn_scene_limits_or_default(NULL),
+                                 all = gn_scene_limits_or_default(limits);
     struct job job = {.program = program,
                       .path = path,
                       .file_mb = given(limits->file_mb, usual.file_mb, MOST_FILE_MB),
-                      .memory_mb =
-                          given(limits->memory_mb, usual.memory_mb, MOST_MEMORY_MB / 2) * 2,
+                      .memory_mb = all.memory_mb,
                       .seconds = given(limits->seconds, usual.seconds, UINT64_MAX),
                       .glb = memfd_create("gnomon-glb", MFD_CLOEXEC),
                       .log = memfd_create("gnomon-log", MFD_CLOEXEC)};
@@ -156,8 +156,7 @@ static char *run_import(const char *path, const struct gn_scene_limits *limits, 
         const struct gn_child child = {.work = exec_program,
                                        .argument = &job,
                                        .cancel = limits->cancel,
-                                       .stall_s = (int)gn_scene_limits_or_default(limits).seconds +
-                                                  GRACE_S};
+                                       .stall_s = (int)all.seconds + GRACE_S};
         struct gn_err end = {0}, reported = {0};
         const bool ok = gn_child_run(&child, NULL, &end);
         read_log(job.log, warnings, &reported);

@@ -143,6 +143,106 @@ static void test_a_picture_over_the_limit_on_texels_is_halved(void **state) {
     gn_maker_finish(&maker);
 }
 
+/* ---- the time ---- */
+
+/* Each with a place, a material and a primitive of its own. */
+static void add_copies(struct gn_made picture, int count) {
+    char json[120];
+    gn_maker_set(&maker, "meshes", "[{'primitives':[]}]");
+    json_t *primitives =
+        json_object_get(json_array_get(json_object_get(maker.root, "meshes"), 0), "primitives");
+    for (int i = 0; i < count; i++) {
+        snprintf(json, sizeof json, "{'bufferView':%d,'mimeType':'image/png'}",
+                 gn_maker_view(&maker, picture.data, picture.size));
+        snprintf(json, sizeof json, "{'source':%d}", gn_maker_add(&maker, "images", json));
+        snprintf(json, sizeof json, "{'emissiveTexture':{'index':%d}}",
+                 gn_maker_add(&maker, "textures", json));
+        const int material = gn_maker_add(&maker, "materials", json);
+        json_array_append_new(primitives, json_pack("{s:{s:i},s:i,s:i}", "attributes", "POSITION",
+                                                    0, "indices", 1, "material", material));
+    }
+    free(picture.data);
+}
+
+static struct gn_scene *load_copies(uint64_t texels) {
+    const struct gn_scene_limits limits = {.texels = texels};
+    struct gn_made glb = gn_maker_glb(&maker);
+    memset(&warnings, 0, sizeof warnings);
+    struct gn_scene *scene = gn_scene_load_bytes("t", glb.data, glb.size, &limits, &warnings, &err);
+    free(glb.data);
+    gn_maker_finish(&maker);
+    if (!scene) fail_msg("%s", err.text);
+    return scene;
+}
+
+/* Of 1024 x 1024 and a value, as many as take twice the time: none is left out. */
+static void expect_all_in_part(bool interlaced) {
+    enum { COUNT = 20, PX = 1024, VALUE = 0 };
+    struct gn_made png = gn_bomb_png_make(&(struct gn_bomb_png){
+        .width_px = PX, .height_px = PX, .depth = 8, .interlaced = interlaced});
+    add_copies(png, COUNT);
+    struct gn_scene *scene = load_copies(PX * PX);
+    assert_int_equal(scene->pictures.image_count, COUNT);
+    int parts = 0;
+    for (int i = 0; i < COUNT; i++) {
+        const struct gn_image *image = &scene->pictures.images[i];
+        parts += interlaced && image->width_px == PX / 8 && image->height_px == PX / 8;
+        for (size_t k = 0; k < (size_t)image->width_px * image->height_px; k++)
+            assert_true(image->rgba[4 * k] == VALUE && image->rgba[4 * k + 3] == 255);
+    }
+    assert_int_equal(parts, interlaced ? warnings.count + warnings.dropped : 0);
+    assert_in_range(warnings.count + warnings.dropped, COUNT / 2, COUNT);
+    assert_non_null(strstr(warnings.text[0], interlaced ? "an eighth of its rows and columns"
+                                                        : "of 1024 rows, and their mean below"));
+    gn_scene_destroy(scene);
+}
+
+static void test_a_png_that_takes_too_long_has_some_of_its_rows(void **state) {
+    (void)state;
+    expect_all_in_part(false);
+}
+
+static void test_an_interlaced_one_has_its_first_passes(void **state) {
+    (void)state;
+    expect_all_in_part(true);
+}
+
+/* Files with as many texels that are large, as of photographs, are read. */
+static void test_time_goes_by_the_bytes_too(void **state) {
+    (void)state;
+    enum { COUNT = 20, PX = 256 };
+    uint8_t *rgba = malloc(4 * PX * PX);
+    for (uint32_t i = 0, dice = 1; i < 4 * PX * PX; i++) {
+        dice = dice * 1664525 + 1013904223;
+        rgba[i] = (uint8_t)(dice >> 24);
+    }
+    add_copies(gn_maker_png(PX, PX, rgba), COUNT);
+    struct gn_scene *scene = load_copies(PX * PX);
+    assert_int_equal(scene->pictures.image_count, COUNT);
+    assert_int_equal(warnings.count, 0);
+    assert_memory_equal(scene->pictures.images[COUNT - 1].rgba, rgba, 4 * PX * PX);
+    free(rgba);
+    gn_scene_destroy(scene);
+}
+
+static void test_rows_that_are_not_read_have_the_mean_of_those_that_are(void **state) {
+    (void)state;
+    enum { PX = 64, ROWS = 16 };
+    uint8_t rgba[4 * PX * PX], out[4 * PX * PX];
+    const uint32_t to[] = {PX, PX};
+    for (int i = 0; i < 4 * PX * PX; i++) /* columns of 0 and 200, and below of 77 */
+        rgba[i] = i % 4 == 3 ? 255 : i / 4 >= PX * ROWS ? 77 : (uint8_t)(i / 4 % 2 * 200);
+    struct gn_made png = gn_maker_png(PX, PX, rgba);
+    struct gn_picture_file file = {
+        .kind = GN_FORMAT_PNG, .data = png.data, .size = png.size, .rows = ROWS};
+    assert_true(gn_picture_size(&file, &err) && gn_picture_can_stop(&file));
+    assert_true(gn_picture_decode(&file, 0, GN_SCALE_DATA, out, to, &err));
+    assert_memory_equal(out, rgba, 4 * PX * ROWS);
+    for (int i = PX * ROWS; i < PX * PX; i++)
+        assert_memory_equal(out + 4 * i, "\x64\x64\x64\xff", 4);
+    free(png.data);
+}
+
 /* ---- the texels ---- */
 
 enum { WIDTH = 37, HEIGHT = 23 };
@@ -161,7 +261,7 @@ static void test_rows_give_the_average_of_all_texels(void **state) {
     uint8_t rgba[WIDTH * HEIGHT * 4], whole[WIDTH * HEIGHT * 4], rows[WIDTH * HEIGHT * 4];
     fill(rgba);
     struct gn_made png = gn_maker_png(WIDTH, HEIGHT, rgba);
-    struct gn_picture_file file = {GN_FORMAT_PNG, png.data, png.size, {0}};
+    struct gn_picture_file file = {.kind = GN_FORMAT_PNG, .data = png.data, .size = png.size};
     assert_true(gn_picture_size(&file, &err));
     for (enum gn_scale_kind kind = GN_SCALE_COLOR; kind <= GN_SCALE_NORMALS; kind++) {
         struct gn_scaler scaler;
@@ -217,6 +317,10 @@ int main(void) {
         cmocka_unit_test_setup(test_webp_is_halved_within_memory_mb, setup),
         cmocka_unit_test_setup(test_what_no_decoder_makes_small_is_named, setup),
         cmocka_unit_test_setup(test_a_picture_over_the_limit_on_texels_is_halved, setup),
+        cmocka_unit_test_setup(test_a_png_that_takes_too_long_has_some_of_its_rows, setup),
+        cmocka_unit_test_setup(test_an_interlaced_one_has_its_first_passes, setup),
+        cmocka_unit_test_setup(test_time_goes_by_the_bytes_too, setup),
+        cmocka_unit_test(test_rows_that_are_not_read_have_the_mean_of_those_that_are),
         cmocka_unit_test(test_rows_give_the_average_of_all_texels),
         cmocka_unit_test(test_halves_are_averaged_in_linear_light),
         cmocka_unit_test(test_a_shrunk_interlaced_png_has_its_first_passes),

@@ -265,8 +265,8 @@ static void test_narrow_pictures_cannot_take_minutes(void **state) {
     }
     free(png.data);
     struct gn_scene *scene = load();
-    assert_in_range(scene->pictures.image_count, 1, 4);
-    assert_non_null(strstr(warnings.text[0], "not decoded: pictures of narrow rows take too long"));
+    assert_int_equal(scene->pictures.image_count, COUNT);
+    assert_non_null(strstr(warnings.text[0], "of 999999 rows, and their mean below"));
     gn_scene_destroy(scene);
     assert_quick();
 }

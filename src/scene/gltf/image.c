@@ -41,25 +41,53 @@ static uint32_t least_level(const struct gn_gltf *g, const uint32_t px[2]) {
     return level;
 }
 
+/* Where all of it takes longer than is left for pictures, a part, if its decoder can stop: the
+ * first passes of an interlaced PNG, or the rows that a share of what is left pays for, so that
+ * further pictures have theirs. Returns the halvings that this takes. */
+static uint32_t take_part(struct gn_gltf *g, const struct gn_at *at, struct gn_picture_file *file,
+                          uint64_t *work) {
+    enum { SHARE = 8 };
+    const uint64_t left = gn_gltf_picture_time(g) / SHARE, row = *work / file->px[1];
+    const bool interlaced = file->kind == GN_FORMAT_PNG && gn_png_is_interlaced(file->data);
+    if (*work <= gn_gltf_picture_time(g)) return 0;
+    if (interlaced && *work >> 2 * GN_SHRINK_MOST <= left) {
+        *work >>= 2 * GN_SHRINK_MOST;
+        gn_gltf_warn(g, at,
+                     "pictures of so many texels take too long to decode: shown with an eighth of "
+                     "its rows and columns");
+        return GN_SHRINK_MOST;
+    }
+    if (!gn_picture_can_stop(file) || left < row) return 0;
+    file->rows = (uint32_t)(left / row);
+    *work = row * file->rows;
+    gn_gltf_warn(g, at,
+                 "pictures of so many texels take too long to decode: shown with %" PRIu32
+                 " of %" PRIu32 " rows, and their mean below",
+                 file->rows, file->px[1]);
+    return 0;
+}
+
 static bool decode_image(struct gn_gltf *g, const struct gn_at *at, const struct gn_blob *blob,
                          enum gn_scale_kind kind, struct gn_image *image, struct gn_err *err) {
     struct gn_picture_file file = {
-        gn_format_of(blob->data, blob->size), blob->data, blob->size, {0}};
+        .kind = gn_format_of(blob->data, blob->size), .data = blob->data, .size = blob->size};
     uint32_t shrink;
     if (file.kind == GN_FORMAT_OTHER) return gn_fail(err, GN_FORMAT_OTHER_TEXT);
     if (!gn_picture_size(&file, err)) return false;
     if (file.px[0] == 0 || file.px[1] == 0) return gn_fail(err, "width or height is 0");
-    const uint32_t least = least_level(g, file.px),
+    uint64_t work = gn_gltf_picture_work(file.px) * gn_picture_cost(&file);
+    const uint32_t part = take_part(g, at, &file, &work), all = least_level(g, file.px),
+                   least = all > part ? all : part,
                    wanted = gn_gltf_halvings(file.px, g->limits.texture_px),
                    level = wanted > least ? wanted : least;
     struct gn_picture_need whole = need_of(&file, least, 0, &shrink);
     for (uint32_t i = 0; i < GN_HALVINGS; i++)
         whole.halved[i] = need_of(&file, least + 1 + i, 0, &shrink).decoding;
-    whole.work = gn_gltf_picture_work(file.px) * gn_picture_cost(&file);
     struct gn_picture_need need = need_of(&file, level, gn_gltf_picture_room(g), &shrink);
-    need.work = whole.work;
+    need.work = whole.work = work;
+    if (part > 0) shrink = part;
     if (!gn_gltf_picture_fits(g, &need, &whole, err)) return false;
-    if (least > 0 && wanted < least)
+    if (all > 0 && wanted < all)
         gn_gltf_warn(g, at,
                      "%" PRIu32 "x%" PRIu32 " is over the limit texels=%" PRIu64
                      ": halved to %" PRIu32 "x%" PRIu32,

@@ -55,8 +55,9 @@ char *gn_gltf_strdup(struct gn_gltf *g, const char *text) {
 
 /* Decoding takes time by texels, however small a picture is made, and by rows where these are
  * short: libpng visits each in up to seven passes. A row counts as so many texels more, and all
- * together are at most as many as in so many of the largest pictures. */
-enum { ROW_WORK = 256, LARGEST_PICTURES = 10 };
+ * together are at most as many as in so many of the largest pictures, and so many more for each
+ * byte read: files with many real pictures are large. */
+enum { ROW_WORK = 256, LARGEST_PICTURES = 10, WORK_A_BYTE = 8 };
 
 enum {
     LOADS_MAX = 2,  /* with pictures too large, for their sake, then for that of the GPU */
@@ -148,9 +149,13 @@ static bool fail_over(const struct gn_picture_need *whole, const char *what, str
     return gn_fail(err, "%s: at any size, decoding it takes %" PRIu64 " MB", what, mb);
 }
 
+static uint64_t most_work(const struct gn_gltf *g) {
+    return LARGEST_PICTURES * g->limits.texels + WORK_A_BYTE * g->read_bytes;
+}
+
 static bool is_quick(const struct gn_gltf *g, uint64_t work, const uint32_t px[2],
                      struct gn_err *err) {
-    return work <= LARGEST_PICTURES * g->limits.texels ||
+    return work <= most_work(g) ||
            gn_fail(err,
                    "not decoded: pictures of %s take too long: over %d times the limit "
                    "texels=%" PRIu64,
@@ -181,6 +186,11 @@ bool gn_gltf_picture_fits(struct gn_gltf *g, const struct gn_picture_need *need,
                        g->limits.texels);
     note_most(g, need->kept + more);
     return true;
+}
+
+uint64_t gn_gltf_picture_time(const struct gn_gltf *g) {
+    const uint64_t most = most_work(g);
+    return g->decode_work < most ? most - g->decode_work : 0;
 }
 
 uint64_t gn_gltf_picture_work(const uint32_t px[2]) {

@@ -1,0 +1,119 @@
+/* Small files whose numbers are large, shown by a kiosk while it runs: no step of its loop, between
+ * which ctl and the watchdog have their turn, takes long while one is loaded, uploaded, and its
+ * modes are made. Processor time of the loop's thread, which a busy machine does not change. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "core/clock.h"
+#include "core/file.h"
+#include "fuzz/bombs.h"
+#include "kiosk/private.h"
+#include "unit/check.h"
+#include "unit/gl_help.h"
+#include "unit/gltf_maker.h"
+#include "unit/show_help.h"
+
+enum { MOST_MS = 500, STEPS_MAX = 20000 };
+
+/* Until it is shown or refused, and nothing is made ahead any more. The longest step, in ms. */
+static double show_file(struct gn_show *show, const char *path) {
+    double most_ms = 0;
+    const int64_t begun_ns = gn_clock_process_cpu_ns();
+    gn_show_load_file(show, path);
+    for (int steps = 0; steps < STEPS_MAX; steps++) {
+        const int64_t start_ns = gn_clock_thread_cpu_ns();
+        help_show_step(show);
+        const double took_ms = 1e-6 * (double)(gn_clock_thread_cpu_ns() - start_ns);
+        if (took_ms > most_ms) most_ms = took_ms;
+        if (steps > 3 && !show->reloads && !show->reload.options && !show->screen.staged.loaded &&
+            !gn_show_has_work(&show->screen))
+            break;
+        assert_true(gn_clock_process_cpu_ns() - begun_ns < 120 * GN_NS_PER_S);
+    }
+    return most_ms;
+}
+
+static struct gn_show *begin_show(void) {
+    return help_show((const char *[]){"--size", "64x64", "--shadow", "hard", "--map", "64",
+                                      "build/selftest/box.glb", NULL});
+}
+
+static void put_file(const char *path, struct gn_made *made) {
+    struct gn_err err = {0};
+    if (!gn_file_write(path, made->data, made->size, &err)) fail_msg("%s", err.text);
+    free(made->data);
+}
+
+/* A primitive of 64 materials in 4000 nodes is 252,000 items, and each variant a mode. */
+static void test_many_variants_of_many_nodes(void **state) {
+    enum { VARIANTS = 63, NODES = 4000 };
+    struct gn_maker maker;
+    char json[200], path[200];
+    (void)state;
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    json_t *mappings = json_array(), *names = json_array(), *nodes = json_array();
+    for (int i = 0; i <= VARIANTS; i++) {
+        snprintf(json, sizeof json, "{'pbrMetallicRoughness':{'roughnessFactor':%g}}", i / 100.0);
+        gn_maker_add(&maker, "materials", json);
+        if (i == VARIANTS) break;
+        json_array_append_new(mappings, json_pack("{s:i,s:[i]}", "material", i + 1, "variants", i));
+        json_array_append_new(names, json_pack("{s:s}", "name", "v"));
+    }
+    for (int i = 1; i < NODES; i++) gn_maker_add(&maker, "nodes", "{'mesh':0}");
+    for (int i = 0; i < NODES; i++) json_array_append_new(nodes, json_integer(i));
+    json_t *primitive = json_array_get(
+        json_object_get(json_array_get(json_object_get(maker.root, "meshes"), 0), "primitives"), 0);
+    json_object_set_new(primitive, "material", json_integer(0));
+    json_object_set_new(primitive, "extensions",
+                        json_pack("{s:{s:o}}", "KHR_materials_variants", "mappings", mappings));
+    json_object_set_new(maker.root, "extensions",
+                        json_pack("{s:{s:o}}", "KHR_materials_variants", "variants", names));
+    json_object_set_new(json_array_get(json_object_get(maker.root, "scenes"), 0), "nodes", nodes);
+    gn_maker_set(&maker, "extensionsUsed", "['KHR_materials_variants']");
+    struct gn_made glb = gn_maker_glb(&maker);
+    gn_maker_finish(&maker);
+    const char *folder = help_folder();
+    snprintf(path, sizeof path, "%s/variants.glb", folder);
+    put_file(path, &glb);
+    struct gn_show *show = begin_show();
+    const double most_ms = show_file(show, path);
+    const uint32_t items = show->screen.stage.scene->item_count;
+    gn_show_close(show);
+    help_remove(folder);
+    printf("%u items: %.0f ms at the most\n", items, most_ms);
+    assert_in_range(items, VARIANTS * NODES, 2 * VARIANTS * NODES);
+    if (most_ms > MOST_MS) fail_msg("a step takes %.0f ms", most_ms);
+}
+
+static void test_bombs_one_after_another(void **state) {
+    char path[200], kinds[200];
+    double most_ms = 0;
+    (void)state;
+    const char *folder = help_folder();
+    struct gn_show *show = begin_show();
+    for (uint64_t number = 0; number < (getenv("GN_FULL") ? 400 : 24); number++) {
+        struct gn_made bomb = gn_bomb_make(number, kinds, sizeof kinds);
+        snprintf(path, sizeof path, "%s/bomb-%d.glb", folder, (int)number);
+        put_file(path, &bomb);
+        const double ms = show_file(show, path);
+        if (ms > most_ms) most_ms = ms;
+        if (ms > MOST_MS / 4.0 || getenv("GN_VERBOSE"))
+            printf("%d: %.0f ms, %s\n", (int)number, ms, kinds);
+        if (ms > MOST_MS) fail_msg("bomb %d (%s): a step takes %.0f ms", (int)number, kinds, ms);
+        remove(path);
+    }
+    gn_show_close(show);
+    help_remove(folder);
+    printf("%.0f ms at the most\n", most_ms);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_many_variants_of_many_nodes),
+        cmocka_unit_test(test_bombs_one_after_another),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
