@@ -228,7 +228,7 @@ void gn_frame_draw_items(struct gn_frame *frame, const struct gn_pose *pose,
     for (uint32_t i = 0; i < frame->scene->item_count; i++) {
         if (!takes_item(frame, pose, s, i)) continue;
         const struct gn_item *item = &frame->scene->items[i];
-        const uint64_t its = 2 * (uint64_t)item->batch + (frame->plan.occlusion.on && item->still);
+        const uint64_t its = 2 * (uint64_t)item->batch + (frame->plan.occlusion.on && item->stays);
         if (its != run) draw_run(frame, pose, s);
         run = its;
         float depth = s->casts ? 0.0f : depth_of(frame, &pose->items[i].box_ws, 0);

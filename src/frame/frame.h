@@ -67,8 +67,8 @@ struct gn_frame_environment_opts {
     float strength;                /* factor on its radiance; 0: it gives no light */
 };
 
-struct gn_frame_occlusion_opts { /* ambient occlusion of what stands still, on diffuse light of an
-                                    environment and on reflections beside it */
+struct gn_frame_occlusion_opts { /* ambient occlusion of what stays where it is, on diffuse light of
+                                    an environment and on reflections beside it */
     bool on;                     /* programs are made for it, also before there are texels */
     const int8_t (*texels)[4]; /* of the scene's grid (scene.h), times 127; NULL: none is occluded.
                                   Must stay as they are while plans use them */

@@ -73,7 +73,7 @@ static bool number_looks(struct gn_gltf *g, uint32_t *look_number) {
 
 /* Within a batch what is still lies together where the studio lights it: only that has occlusion.
  */
-enum { KEY_ALPHA, KEY_LOOK, KEY_GEOMETRY, KEY_FLAGS, KEY_STILL, KEY_ORDER, KEY_COUNT };
+enum { KEY_ALPHA, KEY_LOOK, KEY_GEOMETRY, KEY_FLAGS, KEY_STAYS, KEY_ORDER, KEY_COUNT };
 struct item_key {
     uint32_t part[KEY_COUNT];
     struct gn_item item;
@@ -104,14 +104,14 @@ bool gn_scene_batch(struct gn_gltf *g) {
                      [KEY_LOOK] = looks[item->material],
                      [KEY_GEOMETRY] = item->geometry,
                      [KEY_FLAGS] = flags,
-                     [KEY_STILL] = scene->added.light && item->still,
+                     [KEY_STAYS] = scene->added.light && item->stays,
                      [KEY_ORDER] = i},
             .item = *item};
     }
     qsort(keys, scene->item_count, sizeof *keys, compare_items);
     for (uint32_t i = 0; i < scene->item_count; i++) {
         bool next =
-            i > 0 && memcmp(keys[i].part, keys[i - 1].part, KEY_STILL * sizeof(uint32_t)) != 0;
+            i > 0 && memcmp(keys[i].part, keys[i - 1].part, KEY_STAYS * sizeof(uint32_t)) != 0;
         scene->batch_count = i == 0 ? 1 : scene->batch_count + next;
         scene->items[i] = keys[i].item;
         scene->items[i].batch = scene->batch_count - 1;

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "scene/deform.h"
-#include "scene/pose.h"
+#include "scene/poses.h"
 
 enum {
     COLUMNS = 128,  /* to each side */
@@ -23,12 +23,8 @@ enum {
     SHARES = 64,    /* of sin(e)^2: bits of a word */
     WORK = 1 << 24, /* triangles and columns that they are over; no more are looked at in a pose */
     POSES = 4,      /* of a period, if something moves; */
-    POSED = 400000, /* or so few that these triangles are posed at most */
 };
-/* What stays where it is: the footprint of its box over all poses is this much wider at most than
- * in the widest of them. */
-#define STAYS 1.5f
-#define HALF  UINT64_C(0x5555555555555555) /* of the shares, wherever they are */
+#define HALF UINT64_C(0x5555555555555555) /* of the shares, wherever they are */
 
 struct columns {
     float corner[2], side_m; /* x and z of the least corner; of the square that they fill */
@@ -148,43 +144,18 @@ static bool is_solid(const struct gn_scene *scene, const struct gn_item *item) {
     return item->casts && !gn_material_is_clear(&scene->materials[item->material]);
 }
 
-static void step_to(struct gn_pose *pose, int at, int poses) {
-    gn_pose_step(pose, gn_scene_period_ns(pose) / poses * at);
-}
-
 /* How many poses are looked at. */
 static int count_poses(const struct gn_scene *scene, const struct gn_pose *pose) {
     uint64_t triangles = 0;
-    int poses = POSES;
     for (uint32_t i = 0; i < scene->item_count; i++)
         if (pose->items[i].moves && is_solid(scene, &scene->items[i]))
             triangles += scene->geometries[scene->items[i].geometry].index_count / 3;
-    while (poses > 1 && poses * triangles > POSED) poses /= 2;
-    return triangles > 0 && gn_scene_period_ns(pose) > 0 ? poses : 1;
-}
-
-/* Of each item whether it stays; boxes: room for one of each. */
-static void find_staying(const struct gn_scene *scene, struct gn_pose *pose, int poses,
-                         struct gn_box *boxes, float (*widest_m)[2], bool *stays) {
-    for (uint32_t i = 0; i < scene->item_count; i++) boxes[i] = GN_BOX_EMPTY;
-    for (int p = 0; p < poses; p++) {
-        step_to(pose, p, poses);
-        for (uint32_t i = 0; i < scene->item_count; i++) {
-            const struct gn_box *box = &pose->items[i].box_ws;
-            gn_box_join(&boxes[i], box);
-            for (int k = 0; k < 2; k++)
-                widest_m[i][k] = fmaxf(widest_m[i][k], box->max[2 * k] - box->min[2 * k]);
-        }
-    }
-    for (uint32_t i = 0; i < scene->item_count; i++) {
-        stays[i] = true;
-        for (int k = 0; k < 2; k++)
-            stays[i] &= boxes[i].max[2 * k] - boxes[i].min[2 * k] <= STAYS * widest_m[i][k];
-    }
+    return gn_poses_count(pose, triangles, POSES);
 }
 
 static void fill_columns(struct columns *c, const struct gn_scene *scene,
-                         const struct gn_pose *pose, const bool *stays, float floor_m) {
+                         const struct gn_pose *pose, const struct gn_poses_place *places,
+                         float floor_m) {
     c->work_left = WORK;
     c->first[0] = c->first[1] = COLUMNS;
     c->last[0] = c->last[1] = -1;
@@ -195,7 +166,8 @@ static void fill_columns(struct columns *c, const struct gn_scene *scene,
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         const struct gn_geometry *geometry = &scene->geometries[item->geometry];
-        if (!pose->items[i].visible || !stays[i] || !is_solid(scene, item)) continue;
+        if (!pose->items[i].visible || !is_solid(scene, item)) continue;
+        if (!gn_poses_stays(&places[i], 0) || !gn_poses_stays(&places[i], 2)) continue;
         const uint32_t *index = scene->buffers.indices + geometry->first_index;
         for (uint32_t t = 0; t + 2 < geometry->index_count; t += 3) {
             if (--c->work_left < 0) return;
@@ -360,18 +332,16 @@ int32_t gn_floor_occlusion(struct gn_gltf *g, struct gn_pose *pose, const float 
     uint8_t *rgba = gn_gltf_alloc(g, g->memory.scene, TEXELS * TEXELS, 4);
     float(*seen)[TEXELS] = gn_gltf_alloc(g, step, TEXELS, sizeof *seen),
     (*sum)[TEXELS] = gn_gltf_alloc(g, step, TEXELS, sizeof *sum);
-    struct gn_box *boxes = gn_gltf_alloc(g, step, items, sizeof *boxes);
-    float(*widest_m)[2] = gn_gltf_alloc(g, step, items, sizeof *widest_m);
-    bool *stays = gn_gltf_alloc(g, step, items, sizeof *stays);
+    struct gn_poses_place *places = gn_gltf_alloc(g, step, items, sizeof *places);
     if (g->failed) return -1;
     c->side_m = side_m;
     c->corner[0] = middle[0] - side_m / 2;
     c->corner[1] = middle[2] - side_m / 2;
     const int poses = count_poses(scene, pose);
-    find_staying(scene, pose, poses, boxes, widest_m, stays);
+    gn_poses_find_places(pose, poses, places);
     for (int p = 0; p < poses; p++) {
-        step_to(pose, p, poses);
-        fill_columns(c, scene, pose, stays, middle[1]);
+        gn_poses_step(pose, p, poses);
+        fill_columns(c, scene, pose, places, middle[1]);
         add_sky(c, seen, sum);
     }
     gn_pose_step(pose, 0);

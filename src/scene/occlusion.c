@@ -1,62 +1,67 @@
-/* Where a scene has room for ambient occlusion: what of it stands still, and the grid of cubes over
- * that (truth/occlusion.h fills it). */
+/* Where a scene has room for ambient occlusion: what of it stays where it is, and the grid of cubes
+ * over that (truth/occlusion.h fills it). */
 #include "scene/private.h"
 
 #include <math.h>
 
 #include "scene/deform.h"
-#include "scene/pose.h"
+#include "scene/poses.h"
 
 enum {
-    CELLS = 32,      /* to the power of 3: as many cubes at most */
-    AXIS_CELLS = 128 /* along one axis: ES 3.0 promises 256 */
+    CELLS = 32,       /* to the power of 3: as many cubes at most */
+    AXIS_CELLS = 128, /* along one axis: ES 3.0 promises 256 */
+    POSES = 16        /* of clips */
 };
+/* What moves no farther than this share of all that is there stays, too. */
+#define NEAR .125f
 
-/* What some clip of the file moves, whichever is shown. */
-struct movers {
-    bool *nodes, *morphs;
-};
-
-static void mark_record(const struct gn_scene *scene, uint32_t record, struct movers *m) {
-    for (uint32_t i = 0; i < scene->node_count; i++)
-        if (scene->nodes[i].record == record + 1) m->nodes[i] = true; /* it may be hidden */
-}
-
-static bool find_movers(struct gn_gltf *g, struct movers *m) {
+/* Marks the nodes that a clip of the file may hide, whichever is shown. */
+static bool find_hidden(struct gn_gltf *g, bool **hidden) {
     const struct gn_scene *scene = g->scene;
-    m->nodes = gn_gltf_alloc(g, &g->memory.step, scene->node_count + 1, sizeof *m->nodes);
-    m->morphs =
-        gn_gltf_alloc(g, &g->memory.step, scene->deformation.morph_count + 1, sizeof *m->morphs);
-    if (!m->nodes || !m->morphs) return false;
+    *hidden = gn_gltf_alloc(g, &g->memory.step, scene->node_count + 1, sizeof **hidden);
+    if (!*hidden) return false;
     for (uint32_t i = 0; i < scene->animation.channel_count; i++) {
         const struct gn_channel *channel = &scene->animation.channels[i];
-        if (channel->path == GN_ANIM_WEIGHTS)
-            m->morphs[channel->morph] = true;
-        else if (channel->path != GN_ANIM_RECORD)
-            m->nodes[channel->node] = true;
-        else if (scene->animation.names[GN_THING_NODE])
-            mark_record(scene, channel->record, m);
+        if (channel->path != GN_ANIM_RECORD || !scene->animation.names[GN_THING_NODE]) continue;
+        for (uint32_t k = 0; k < scene->node_count; k++)
+            (*hidden)[k] |= scene->nodes[k].record == channel->record + 1;
     }
     for (uint32_t i = 0; i < scene->node_count; i++) /* parents stand first */
-        if (scene->nodes[i].parent >= 0 && m->nodes[scene->nodes[i].parent]) m->nodes[i] = true;
+        if (scene->nodes[i].parent >= 0) (*hidden)[i] |= (*hidden)[scene->nodes[i].parent];
     return true;
 }
 
-static bool skin_moves(const struct gn_scene *scene, const struct movers *m, int32_t skin) {
-    const struct gn_skin *s = &scene->deformation.skins[skin];
-    const struct gn_joint *joints = scene->deformation.joints + s->first_joint;
-    for (uint32_t k = 0; k < s->joint_count; k++)
-        if (joints[k].node >= 0 && m->nodes[joints[k].node]) return true;
-    return false;
+/* Whatever it moves. */
+static bool may_stay(const struct gn_scene *scene, const bool *hidden, const struct gn_item *item) {
+    const struct gn_material *material = &scene->materials[item->material];
+    return !material->shadow_catcher && !hidden[item->node] &&
+           !(material->alpha == GN_ALPHA_MASK && material->moves & GN_MOVES_CUT);
 }
 
-static bool is_still(const struct gn_scene *scene, const struct movers *m,
-                     const struct gn_item *item) {
-    const struct gn_material *material = &scene->materials[item->material];
-    if (material->shadow_catcher) return false;
-    if (material->alpha == GN_ALPHA_MASK && material->moves & GN_MOVES_CUT) return false;
-    if (item->morph >= 0 && m->morphs[item->morph]) return false;
-    return item->skin >= 0 ? !skin_moves(scene, m, item->skin) : !m->nodes[item->node];
+static bool stays_near(const struct gn_scene *scene, const struct gn_poses_place *place) {
+    bool all = true;
+    float most_m = 0;
+    for (int k = 0; k < 3; k++)
+        most_m = fmaxf(most_m, NEAR * (scene->box.max[k] - scene->box.min[k]));
+    for (int k = 0; k < 3; k++)
+        all &= gn_poses_stays(place, k) ||
+               place->box.max[k] - place->box.min[k] - place->widest_m[k] <= most_m;
+    return all;
+}
+
+int gn_poses_occlusion(struct gn_pose *pose, struct gn_poses_place *places) {
+    const struct gn_scene *scene = pose->scene;
+    uint64_t triangles = 0;
+    bool any = false;
+    for (uint32_t i = 0; i < scene->item_count; i++) any |= pose->items[i].moves;
+    gn_poses_find_places(pose, gn_poses_count(pose, any ? scene->node_count : 0, POSES), places);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        const struct gn_item *item = &scene->items[i];
+        places[i].stays = item->stays && stays_near(scene, &places[i]);
+        any |= places[i].stays && pose->items[i].moves;
+        triangles += places[i].stays ? scene->geometries[item->geometry].index_count / 3 : 0;
+    }
+    return gn_poses_count(pose, any ? triangles : 0, POSES);
 }
 
 /* The smallest cubes of which so few enclose the box that their middles do. */
@@ -89,23 +94,28 @@ bool gn_item_is_occluded(const struct gn_scene *scene, const struct gn_item *ite
     int textures = 0;
     for (int slot = 0; slot < GN_TEXTURE_SLOT_COUNT; slot++)
         textures += m->textures[slot].texture >= 0;
-    return scene->occlusion.size[0] > 0 && item->still && !m->unlit &&
+    return scene->occlusion.size[0] > 0 && item->stays && !m->unlit &&
            textures < GN_MATERIAL_TEXTURES_MAX;
 }
 
 bool gn_scene_lay_occlusion(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
-    struct movers movers;
+    bool *hidden, any = false;
     gn_arena_reset(&g->memory.step);
-    if (!find_movers(g, &movers)) return false;
+    struct gn_poses_place *places =
+        gn_gltf_alloc(g, &g->memory.step, scene->item_count + 1, sizeof *places);
+    if (!places || !find_hidden(g, &hidden)) return false;
     struct gn_pose pose;
     struct gn_box box = GN_BOX_EMPTY;
-    bool any = false;
-    gn_pose_init(&pose, scene, GN_POSE_NONE);
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        scene->items[i].stays = may_stay(scene, hidden, &scene->items[i]);
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    gn_poses_occlusion(&pose, places);
+    gn_pose_choose(&pose, GN_POSE_NONE);
     for (uint32_t i = 0; i < scene->item_count; i++) {
-        struct gn_item *item = &scene->items[i];
-        item->still = is_still(scene, &movers, item);
-        if (!item->still || !pose.items[i].visible) continue;
+        scene->items[i].stays = places[i].stays;
+        if (!places[i].stays || !pose.items[i].visible) continue;
+        gn_box_join(&box, &places[i].box);
         gn_box_join(&box, &pose.items[i].box_ws);
         any = true;
     }

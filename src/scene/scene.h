@@ -172,7 +172,8 @@ struct gn_item {
     bool casts_alpha;     /* gnomon_cast_alpha: blended, it casts a shadow by its alpha, dithered */
     uint64_t hidden_in;   /* bit 0: without a variant; bit i + 1: in variant i */
     uint8_t plane;        /* in which it receives planar shadows, from 1; 0: in none */
-    bool still; /* no clip of the file moves, deforms or hides it, and it is no shadow catcher */
+    bool stays; /* over the clips that play by default it stays where it is, no clip of the file
+                   hides it, and it is no shadow catcher */
     enum gn_cast_faces cast_faces;
 };
 
@@ -314,12 +315,12 @@ struct gn_scene_variants {
     const char **names;
     uint32_t count;
 };
-/* Where ambient occlusion of what is still has room: a grid of cubes whose middles enclose it, at
- * the pose without clips. Of a uniform sky a point of its surface, of normal n, sees the share
- * w + (x, y, z).n, between 0 and 1; x, y, z and w are of the cubes' middles, linear between them.
- * The texels of the grid are made by truth/occlusion.h. */
+/* Where ambient occlusion of what stays where it is has room: a grid of cubes whose middles enclose
+ * it, without clips and over those that play by default. Of a uniform sky a point of its surface,
+ * of normal n, sees the share w + (x, y, z).n, between 0 and 1; x, y, z and w are of the cubes'
+ * middles, linear between them. The texels of the grid are made by truth/occlusion.h. */
 struct gn_scene_occlusion {
-    uint32_t size[3]; /* cubes, 2 at least; 0: there is nothing still */
+    uint32_t size[3]; /* cubes, 2 at least; 0: nothing stays */
     float cell_m;     /* side of a cube */
     float origin[3];  /* middle of the first, world space; x changes first from cube to cube */
 };

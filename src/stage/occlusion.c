@@ -13,9 +13,13 @@
 /* A step of a fade is at most 1/127 at 60 frames a second. */
 static const int64_t FADE_NS = 2 * GN_NS_PER_S;
 
+struct cause { /* compared whole */
+    struct gn_sky sky;
+    int clips; /* as gn_pose_init() has them; NONE where they move nothing */
+};
 struct gn_occluder {
     const struct gn_scene *scene;
-    struct gn_sky sky;                        /* that it is wanted for */
+    struct cause cause;                       /* that it is wanted for */
     bool wanted, is_made;                     /* for that; is_made: `to` is of it */
     int8_t (*from)[4], (*to)[4], (*shown)[4]; /* a fade's; shown: what frames have */
     float share;                              /* of `to` in what is shown */
@@ -24,7 +28,7 @@ struct gn_occluder {
     /* the thread's, until it is done */
     pthread_t thread;
     bool works;
-    struct gn_sky its_sky;
+    struct cause its_cause;
     struct gn_occlusion_made made;
     atomic_bool cancel, done;
 };
@@ -130,14 +134,16 @@ static bool read_kept(const char *path, size_t bytes, struct gn_occlusion_made *
 
 /* ---- making ---- */
 
-static struct gn_occlusion_made read_or_make(const struct gn_scene *scene, const struct gn_sky *sky,
+static struct gn_occlusion_made read_or_make(const struct gn_scene *scene,
+                                             const struct cause *cause,
                                              const struct gn_occlusion_work *work) {
     const size_t bytes = cells_of(scene) * sizeof(int8_t[4]);
     struct gn_occlusion_made made = {.texels = NULL};
     char path[GN_KEPT_PATH];
-    const bool keeps = gn_kept_path(&kept_kind, gn_occlusion_key(scene, sky), bytes, path);
+    const bool keeps =
+        gn_kept_path(&kept_kind, gn_occlusion_key(scene, cause->clips, &cause->sky), bytes, path);
     if (keeps && read_kept(path, bytes, &made)) return made;
-    made = gn_occlusion_make(scene, sky, work);
+    made = gn_occlusion_make(scene, cause->clips, &cause->sky, work);
     if (keeps && !(work->cancel && atomic_load(work->cancel)))
         gn_kept_write(&kept_kind, path, made.texels, made.texels ? bytes : 0);
     return made;
@@ -147,7 +153,7 @@ static void *make_in_thread(void *data) {
     struct gn_occluder *o = data;
     const struct gn_occlusion_work work = {.threads = 1, .cancel = &o->cancel};
     gn_thread_lower_priority();
-    o->made = read_or_make(o->scene, &o->its_sky, &work);
+    o->made = read_or_make(o->scene, &o->its_cause, &work);
     atomic_store(&o->done, true);
     return NULL;
 }
@@ -155,7 +161,7 @@ static void *make_in_thread(void *data) {
 static void start_thread(struct gn_occluder *o) {
     atomic_store(&o->cancel, false);
     atomic_store(&o->done, false);
-    o->its_sky = o->sky;
+    o->its_cause = o->cause;
     o->works = pthread_create(&o->thread, NULL, make_in_thread, o) == 0;
     o->is_made = !o->works; /* without a thread it is not tried again */
 }
@@ -165,17 +171,19 @@ struct gn_sky gn_stage_sky_of(const struct gn_frame_environment_opts *e) {
     return gn_stage_sky(e->lights_key ? &e->of->rest : &e->of->whole, e->turn_rad);
 }
 
-void gn_occluder_give(struct gn_occluder *o, struct gn_frame_opts *opts, bool now) {
-    const struct gn_sky sky = gn_stage_sky_of(&opts->environment);
-    if (!o->wanted || memcmp(&sky, &o->sky, sizeof sky) != 0) {
-        o->sky = sky;
+void gn_occluder_give(struct gn_occluder *o, const struct gn_pose *pose, struct gn_frame_opts *opts,
+                      bool now) {
+    const struct cause cause = {gn_stage_sky_of(&opts->environment),
+                                pose->animated ? pose->at.clips : GN_POSE_NONE};
+    if (!o->wanted || memcmp(&cause, &o->cause, sizeof cause) != 0) {
+        o->cause = cause;
         o->wanted = true;
         o->is_made = false;
         atomic_store(&o->cancel, true);
     }
     if (now && !o->is_made) {
         end_thread(o);
-        o->made = read_or_make(o->scene, &o->sky, &(struct gn_occlusion_work){.threads = 0});
+        o->made = read_or_make(o->scene, &o->cause, &(struct gn_occlusion_work){.threads = 0});
         o->is_made = true;
         begin_fade(o, true);
     } else if (!o->is_made && !o->works) {
@@ -189,10 +197,10 @@ void gn_occluder_step(struct gn_occluder *o, int64_t now_ns) {
     if (!o) return;
     if (o->works && atomic_load(&o->done)) {
         end_thread(o);
-        o->is_made = memcmp(&o->its_sky, &o->sky, sizeof o->sky) == 0;
+        o->is_made = memcmp(&o->its_cause, &o->cause, sizeof o->cause) == 0;
         if (o->is_made)
             begin_fade(o, false);
-        else { /* of another sky than is wanted by now */
+        else { /* of another cause than is wanted by now */
             free(o->made.texels);
             o->made.texels = NULL;
             start_thread(o);

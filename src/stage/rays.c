@@ -156,7 +156,7 @@ static bool cast_occlusion(struct gn_stage *stage, const struct gn_view *view,
     gn_frame_camera(view->pose, &view->opts.view, (float)width_px / (float)height_px, &framing);
     gn_ray_eye_look(&eye, &framing, width_px, height_px);
     gn_raycast_init(&seen, view->pose->scene, view->pose, NULL);
-    gn_occlusion_init(&occlusion, view->pose->scene, &sky, NULL);
+    gn_occlusion_init(&occlusion, view->pose->scene, &view->pose->at, &sky, NULL);
     gn_cast(&(struct gn_cast_opts){.rays = &seen,
                                    .eye = &eye,
                                    .occlusion = &occlusion,

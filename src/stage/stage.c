@@ -329,7 +329,7 @@ void gn_stage_occlude(struct gn_stage *stage, struct gn_view *view) {
     const int command = stage->settings->run.command;
     if (!view->opts.occlusion.on) return;
     if (!stage->occluder) stage->occluder = gn_occluder_create(stage->scene); /* built-in scene */
-    gn_occluder_give(stage->occluder, &view->opts,
+    gn_occluder_give(stage->occluder, view->pose, &view->opts,
                      command != GN_COMMAND_SHOW && command != GN_COMMAND_AUTO);
 }
 

@@ -1,8 +1,10 @@
 #include "truth/occlusion.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "core/arena.h"
+#include "scene/poses.h"
 
 #define LEAST_SKY  .125f   /* of the mean: harmonics of a bright spot are negative opposite to it */
 #define LEAST_DOWN (-1e-6) /* a ray that falls less does not reach the floor */
@@ -32,18 +34,31 @@ static void find_floor(struct gn_occlusion *o, const struct gn_scene *scene) {
 }
 
 void gn_occlusion_init(struct gn_occlusion *o, const struct gn_scene *scene,
-                       const struct gn_sky *sky, const atomic_bool *cancel) {
+                       const struct gn_moment *at, const struct gn_sky *sky,
+                       const atomic_bool *cancel) {
+    struct gn_poses_place *places = gn_xalloc(scene->item_count, sizeof *places);
     *o = (struct gn_occlusion){.sky = *sky};
-    gn_pose_init(&o->pose, scene, GN_POSE_NONE);
+    gn_pose_init(&o->pose, scene, at ? at->clips : GN_POSE_NONE);
+    gn_poses_occlusion(&o->pose, places);
+    if (at && at->over >= 0) gn_pose_choose_over(&o->pose, at->clips, at->over);
+    if (at) o->pose.at.run = at->run;
+    if (at) o->pose.at.begun_ns = at->begun_ns;
+    gn_pose_step(&o->pose, at ? at->time_ns : 0);
     find_floor(o, scene);
-    for (uint32_t i = 0; i < scene->item_count; i++)
-        o->pose.items[i].visible &= scene->items[i].still;
+    o->leaves = gn_xalloc(scene->item_count, sizeof *o->leaves);
+    for (uint32_t i = 0; i < scene->item_count; i++) {
+        bool *visible = &o->pose.items[i].visible;
+        o->leaves[i] = *visible && scene->items[i].stays && !places[i].stays;
+        *visible &= places[i].stays;
+    }
+    free(places);
     gn_raycast_init(&o->rays, scene, &o->pose, cancel);
 }
 
 void gn_occlusion_finish(struct gn_occlusion *o) {
     gn_raycast_finish(&o->rays);
     gn_pose_finish(&o->pose);
+    free(o->leaves);
     *o = (struct gn_occlusion){.floor = NULL};
 }
 

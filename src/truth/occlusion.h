@@ -1,9 +1,10 @@
 /* Ambient occlusion: which share of the light of a sky a point of a surface sees, by rays; and the
  * texels of a scene's volume, fitted to such shares.
  *
- * What is still (gn_item.still) occludes as it casts shadows, with its holes, from both sides, at
- * the pose without clips and variants; all else neither occludes nor counts. A ray that meets the
- * scene's unseen floor sees as much of its light as the floor there sees of the sky. */
+ * What stays where it is (gn_item.stays), over the clips that are shown, too, occludes as it casts
+ * shadows, with its holes, from both sides, without variants; all else neither occludes nor counts.
+ * A ray that meets the scene's unseen floor sees as much of its light as the floor there sees of
+ * the sky. */
 #ifndef GN_TRUTH_OCCLUSION_H
 #define GN_TRUTH_OCCLUSION_H
 
@@ -19,16 +20,18 @@ struct gn_sky {
 };
 
 struct gn_occlusion {
-    struct gn_raycast rays; /* of what is still */
+    struct gn_raycast rays; /* of what stays */
     struct gn_pose pose;    /* in which all else is hidden */
+    bool *leaves;           /* by item: hidden in it, since these clips move it away */
     struct gn_sky sky;
     const struct gn_image *floor; /* of the unseen floor, or NULL */
     double floor_m, floor_corner_m[2], floor_side_m;
 };
-/* Another thread sets *cancel to end it; then it may only be finished. NULL: none. The scene must
- * outlive it. */
+/* at: the moment, of which a fade does not count; NULL: without clips. Another thread sets *cancel
+ * to end it; then it may only be finished. NULL: none. The scene must outlive it. */
 void gn_occlusion_init(struct gn_occlusion *occlusion, const struct gn_scene *scene,
-                       const struct gn_sky *sky, const atomic_bool *cancel);
+                       const struct gn_moment *at, const struct gn_sky *sky,
+                       const atomic_bool *cancel);
 void gn_occlusion_finish(struct gn_occlusion *occlusion);
 
 /* A point of a surface. */
@@ -63,11 +66,14 @@ struct gn_occlusion_made {
     float error; /* how far off the measured shares it is, root mean square, noise of the rays taken
                     off */
 };
-/* The same bits with any number of threads. */
-struct gn_occlusion_made gn_occlusion_make(const struct gn_scene *scene, const struct gn_sky *sky,
+/* Of the clips, as gn_pose_init() has them: fitted to some poses of them at once, since in each the
+ * volume is looked up at the same places; what of it these clips move away gets none. The same bits
+ * with any number of threads. */
+struct gn_occlusion_made gn_occlusion_make(const struct gn_scene *scene, int clips,
+                                           const struct gn_sky *sky,
                                            const struct gn_occlusion_work *work);
 /* A hash of all that it is made of with GN_OCCLUSION_RAYS, sources of this program included. */
-uint64_t gn_occlusion_key(const struct gn_scene *scene, const struct gn_sky *sky);
+uint64_t gn_occlusion_key(const struct gn_scene *scene, int clips, const struct gn_sky *sky);
 /* What a shader reads of it, 0 to 1. */
 float gn_occlusion_read(const struct gn_scene_occlusion *grid, const int8_t (*texels)[4],
                         const double point_ws[3], const float normal_ws[3]);

@@ -10,6 +10,7 @@
 
 #include "core/arena.h"
 #include "core/hash.h"
+#include "scene/poses.h"
 #include "truth/occlusion.h"
 
 enum {
@@ -29,13 +30,15 @@ static const float LEAST_WEIGHT = .01f, STEEP = 2;
  * of the rays shows as blotches in large dark places, which the second takes away; what is finely
  * shaped it blurs. It is taken where the error grows by no more than a tenth and that much. */
 static const float BENDS[] = {.02f, .12f}, RIDGE = 3e-5f, BLUR = .001f;
-/* What is farther off than this on average, where light varies much, had better not be shown. */
-static const float COARSE = .09f;
+/* What is farther off than this on average, where light varies much, had better not be shown;
+ * unless it moves, and without occlusion all were farther off by that much. */
+static const float COARSE = .09f, MOVES = 2;
 
 struct measured {
     struct gn_occlusion_site site;
     float open[2]; /* by one half of its rays, by the other */
     float weight;  /* 0: not measured */
+    bool leaves;   /* it is on what is to have no occlusion */
 };
 
 static bool is_cancelled(const struct gn_occlusion_work *work) {
@@ -93,26 +96,29 @@ static struct gn_occlusion_site site_on(const struct triangle *t, bool back, uin
     return site;
 }
 
-/* One for each `step` of the area, if that is not 0, up to `most`; double-sided faces have two
- * sides. Returns the area. */
-static double lay_sites(const struct gn_pose *pose, double step, struct measured *out,
-                        uint32_t most, uint32_t *count) {
+/* One for each `step` of the area, from `next` on, if that is not 0, up to `most`, with numbers
+ * from `first`; double-sided faces have two sides. Returns the area. */
+static double lay_sites(const struct gn_occlusion *o, double step, double next, uint32_t first,
+                        uint32_t most, struct measured *out, uint32_t *count) {
+    const struct gn_pose *pose = &o->pose;
     const struct gn_scene *scene = pose->scene;
-    double area = 0, next = step / 2;
+    double area = 0;
     uint32_t laid = 0;
     for (uint32_t i = 0; i < scene->item_count; i++) {
         const struct gn_item *item = &scene->items[i];
         const struct gn_geometry *geometry = &scene->geometries[item->geometry];
         const uint32_t *index = scene->buffers.indices + geometry->first_index;
         const int sides = scene->materials[item->material].double_sided ? 2 : 1;
-        if (!pose->items[i].visible || !gn_item_is_occluded(scene, item)) continue;
+        if (!pose->items[i].visible && !o->leaves[i]) continue;
+        if (!gn_item_is_occluded(scene, item)) continue;
         for (uint32_t k = 0; k + 2 < geometry->index_count; k += 3) {
             struct triangle t;
             if (!read_triangle(pose, i, index + k, &t)) continue;
             for (int side = 0; side < sides; side++) {
                 area += t.area;
                 for (; step > 0 && next < area && laid < most; next += step, laid++)
-                    out[laid] = (struct measured){.site = site_on(&t, side, laid)};
+                    out[laid] = (struct measured){.site = site_on(&t, side, first + laid),
+                                                  .leaves = o->leaves[i]};
             }
         }
     }
@@ -126,7 +132,7 @@ struct job {
     const struct gn_occlusion *occlusion;
     const struct gn_occlusion_work *work;
     struct measured *sites;
-    uint32_t count;
+    uint32_t first, count; /* number of the first of them */
     atomic_uint next;
 };
 
@@ -135,7 +141,8 @@ static float weight_of(float open) { return fminf(1, LEAST_WEIGHT + STEEP * open
 
 static void measure(const struct gn_occlusion *o, uint32_t number, struct measured *m) {
     double whole[2] = {0, 0}, light[2];
-    m->weight = 1;
+    m->weight = m->open[0] = m->open[1] = 1;
+    if (m->leaves) return;
     light[0] = gn_occlusion_cast(o, &m->site, 0, PILOT, &whole[0]);
     light[1] = gn_occlusion_cast(o, &m->site, RAYS / 2, RAYS / 2 + PILOT / 2, &whole[1]);
     if (light[0] + light[1] == 0) {
@@ -154,7 +161,7 @@ static void *measure_sites(void *data) {
     for (uint32_t first; (first = atomic_fetch_add(&job->next, PIECE)) < job->count;)
         for (uint32_t i = first; i < first + PIECE && i < job->count; i++) {
             if (is_cancelled(job->work)) return NULL;
-            measure(job->occlusion, i, &job->sites[i]);
+            measure(job->occlusion, job->first + i, &job->sites[i]);
         }
     return NULL;
 }
@@ -182,7 +189,7 @@ static uint32_t drop_unmeasured(struct measured *sites, uint32_t count) {
     return kept;
 }
 
-/* ---- the fit ---- */
+/* ---- the fit: of what is less than 1, so that where nothing was measured nothing is ---- */
 
 struct corners { /* of the eight cubes around a point */
     uint32_t first;
@@ -191,8 +198,8 @@ struct corners { /* of the eight cubes around a point */
 struct fit {
     const struct gn_scene_occlusion *grid;
     const struct gn_occlusion_work *work;
-    const struct measured *sites;
-    uint32_t count, cells;
+    struct measured *sites, *checks;
+    uint32_t count, check_count, cells;
     struct corners *corners; /* of each site */
     float bend, ridge;
     float (*bent)[4]; /* second differences */
@@ -252,7 +259,7 @@ static void add_sites(const struct fit *f, const float (*x)[4], float (*out)[4],
         uint32_t at[8];
         float share[8];
         list_corners(f->grid, &f->corners[i], at, share);
-        const float value = weight * (x ? value_at(x, at, share, n) : mean_open(m));
+        const float value = weight * (x ? value_at(x, at, share, n) : mean_open(m) - 1);
         for (int c = 0; c < 8; c++) {
             float *to = out[at[c]];
             for (int k = 0; k < 3; k++) to[k] += share[c] * value * n[k];
@@ -337,34 +344,21 @@ static void solve(struct fit *f, float bend, float (*x)[4]) {
     free(memory);
 }
 
-/* Of some sites with more rays than the fit had, in halves whose noise differs: the product of
- * their errors has none on average. */
-static float measure_error(const struct fit *f, const struct gn_occlusion *o,
-                           const int8_t (*texels)[4]) {
+/* Of the checks' halves, whose noise differs: the product of their errors has none on average.
+ * texels NULL: without occlusion. */
+static float measure_error(const struct fit *f, const int8_t (*texels)[4]) {
     double sum = 0, all = 0;
-    for (uint32_t i = 0; i < CHECKS && !is_cancelled(f->work); i++) {
-        const uint32_t number = (uint32_t)((uint64_t)i * f->count / CHECKS);
-        struct gn_occlusion_site site = f->sites[number].site;
-        double light[2], whole[2] = {0, 0};
-        for (uint64_t k = 0; k < 2; k++) {
-            const uint64_t turns = gn_hash(GN_HASH_INIT + k, &number, sizeof number);
-            site.turn[0] = (float)(turns & 0xffff) * 0x1p-16f;
-            site.turn[1] = (float)(turns >> 16 & 0xffff) * 0x1p-16f;
-            light[k] = gn_occlusion_cast(o, &site, 0, CHECK_RAYS, &whole[k]);
-        }
-        if (!(whole[0] > 0) || !(whole[1] > 0)) continue;
-        const double read =
-            (double)gn_occlusion_read(f->grid, texels, site.point_ws, site.normal_ws);
-        const double seen[2] = {light[0] / whole[0], light[1] / whole[1]};
-        const double weight = (double)site_weight(&f->sites[number]);
-        sum += weight * (read - seen[0]) * (read - seen[1]);
-        all += weight;
+    for (uint32_t i = 0; i < f->check_count; i++) {
+        const struct measured *m = &f->checks[i];
+        const float read =
+            texels ? gn_occlusion_read(f->grid, texels, m->site.point_ws, m->site.normal_ws) : 1;
+        sum += (double)m->weight * (double)(read - m->open[0]) * (double)(read - m->open[1]);
+        all += (double)m->weight;
     }
     return sum > 0 ? (float)sqrt(sum / all) : 0;
 }
 
-static void fit_texels(struct fit *f, const struct gn_occlusion *o,
-                       struct gn_occlusion_made *made) {
+static void fit_texels(struct fit *f, struct gn_occlusion_made *made) {
     f->corners = gn_xalloc(f->count, sizeof *f->corners);
     for (uint32_t i = 0; i < f->count; i++)
         f->corners[i] = corners_of(f->grid, f->sites[i].site.point_ws);
@@ -374,9 +368,9 @@ static void fit_texels(struct fit *f, const struct gn_occlusion *o,
         solve(f, BENDS[i], x);
         for (uint32_t cell = 0; cell < f->cells; cell++)
             for (int k = 0; k < 4; k++)
-                texels[cell][k] = (int8_t)lrintf(127 * glm_clamp(x[cell][k], -1, 1));
+                texels[cell][k] = (int8_t)lrintf(127 * glm_clamp(x[cell][k] + (k == 3), -1, 1));
         free(x);
-        const float error = measure_error(f, o, (const int8_t(*)[4])texels);
+        const float error = measure_error(f, (const int8_t(*)[4])texels);
         const bool better = i == 0 || error <= 1.1f * made->error + BLUR;
         free(better ? made->texels : texels);
         if (!better) continue;
@@ -386,27 +380,77 @@ static void fit_texels(struct fit *f, const struct gn_occlusion *o,
     free(f->corners);
 }
 
-struct gn_occlusion_made gn_occlusion_make(const struct gn_scene *scene, const struct gn_sky *sky,
+/* ---- poses ---- */
+
+/* Of some sites, with more rays than the fit has. */
+static void check_sites(struct fit *f, const struct gn_occlusion *o, uint32_t first,
+                        uint32_t checks) {
+    for (uint32_t i = 0; i < checks && first < f->count && !is_cancelled(f->work); i++) {
+        const uint32_t number = first + (uint32_t)((uint64_t)i * (f->count - first) / checks);
+        struct measured check = f->sites[number];
+        double whole[2] = {0, 0};
+        check.weight = site_weight(&f->sites[number]);
+        for (uint64_t k = 0; k < 2 && !check.leaves; k++) {
+            const uint64_t turns = gn_hash(GN_HASH_INIT + k, &number, sizeof number);
+            check.site.turn[0] = (float)(turns & 0xffff) * 0x1p-16f;
+            check.site.turn[1] = (float)(turns >> 16 & 0xffff) * 0x1p-16f;
+            const double light = gn_occlusion_cast(o, &check.site, 0, CHECK_RAYS, &whole[k]);
+            check.open[k] = (float)(light / whole[k]);
+        }
+        if (check.leaves || (whole[0] > 0 && whole[1] > 0)) f->checks[f->check_count++] = check;
+    }
+}
+
+/* Adds sites of pose p of so many, of each as many. */
+static void add_pose(struct fit *f, const struct gn_scene *scene, const struct gn_moment *at,
+                     const struct gn_sky *sky, int p, int poses) {
+    const uint32_t most = (f->work->rays ? f->work->rays : GN_OCCLUSION_RAYS) / RAYS,
+                   first = most / (uint32_t)poses * (uint32_t)p, room = most / (uint32_t)poses;
+    struct gn_occlusion o;
+    gn_occlusion_init(&o, scene, at, sky, f->work->cancel);
+    struct job job = {
+        .occlusion = &o, .work = f->work, .sites = f->sites + f->count, .first = first};
+    const double area = lay_sites(&o, 0, 0, 0, 0, NULL, NULL), step = area / room;
+    if (area > 0 && isfinite(area))
+        lay_sites(&o, step, step * (p + .5) / poses, first, room, job.sites, &job.count);
+    if (!is_cancelled(f->work)) measure_all(&job);
+    const uint32_t before = f->count;
+    f->count += is_cancelled(f->work) ? 0 : drop_unmeasured(job.sites, job.count);
+    check_sites(f, &o, before, CHECKS / (uint32_t)poses);
+    gn_occlusion_finish(&o);
+}
+
+static int add_poses(struct fit *f, const struct gn_scene *scene, int clips,
+                     const struct gn_sky *sky) {
+    struct gn_poses_place *places = gn_xalloc(scene->item_count, sizeof *places);
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, clips);
+    const int poses = gn_poses_occlusion(&pose, places);
+    for (int p = 0; p < poses && !is_cancelled(f->work); p++) {
+        gn_poses_step(&pose, p, poses);
+        add_pose(f, scene, &pose.at, sky, p, poses);
+    }
+    gn_pose_finish(&pose);
+    free(places);
+    return poses;
+}
+
+struct gn_occlusion_made gn_occlusion_make(const struct gn_scene *scene, int clips,
+                                           const struct gn_sky *sky,
                                            const struct gn_occlusion_work *work) {
     struct gn_occlusion_made made = {.texels = NULL};
     const struct gn_scene_occlusion *grid = &scene->occlusion;
-    const uint32_t most = (work->rays ? work->rays : GN_OCCLUSION_RAYS) / RAYS;
     if (grid->size[0] == 0) return made;
-    struct gn_occlusion occlusion;
-    gn_occlusion_init(&occlusion, scene, sky, work->cancel);
-    struct job job = {.occlusion = &occlusion, .work = work};
-    const double area = lay_sites(&occlusion.pose, 0, NULL, 0, NULL);
-    job.sites = gn_xalloc(most, sizeof *job.sites);
-    if (area > 0 && isfinite(area))
-        lay_sites(&occlusion.pose, area / most, job.sites, most, &job.count);
-    if (!is_cancelled(work)) measure_all(&job);
-    struct fit f = {.grid = grid, .work = work, .sites = job.sites};
-    f.count = is_cancelled(work) ? 0 : drop_unmeasured(job.sites, job.count);
+    struct fit f = {.grid = grid, .work = work};
     f.cells = grid->size[0] * grid->size[1] * grid->size[2];
-    if (f.count > 0) fit_texels(&f, &occlusion, &made);
-    gn_occlusion_finish(&occlusion);
-    free(job.sites);
-    if (!is_cancelled(work) && made.error <= COARSE) return made;
+    f.sites = gn_xalloc((work->rays ? work->rays : GN_OCCLUSION_RAYS) / RAYS, sizeof *f.sites);
+    f.checks = gn_xalloc(CHECKS, sizeof *f.checks);
+    const int poses = add_poses(&f, scene, clips, sky);
+    if (f.count > 0 && !is_cancelled(work)) fit_texels(&f, &made);
+    const float most = poses > 1 ? fmaxf(COARSE, measure_error(&f, NULL) / MOVES) : COARSE;
+    free(f.checks);
+    free(f.sites);
+    if (!is_cancelled(work) && made.error <= most) return made;
     free(made.texels);
     made.texels = NULL;
     return made;

@@ -5,6 +5,7 @@
 #include "core/arena.h"
 #include "core/hash.h"
 #include "rays.h"
+#include "scene/poses.h"
 #include "truth/occlusion.h"
 
 static uint64_t hash_buffers(uint64_t h, const struct gn_scene_buffers *b) {
@@ -38,7 +39,8 @@ static uint64_t hash_texture(uint64_t h, const struct gn_scene *scene,
                          : gn_hash(h, image->rgba, 4 * (size_t)px[0] * px[1]);
 }
 
-static uint64_t hash_item(uint64_t h, const struct gn_pose *pose, uint32_t i, bool *seen) {
+static uint64_t hash_item(uint64_t h, const struct gn_pose *pose, uint32_t i, bool stays,
+                          bool *seen) {
     const struct gn_scene *scene = pose->scene;
     const struct gn_item *item = &scene->items[i];
     const struct gn_geometry *geometry = &scene->geometries[item->geometry];
@@ -53,28 +55,37 @@ static uint64_t hash_item(uint64_t h, const struct gn_pose *pose, uint32_t i, bo
                              gn_material_is_blended(m),
                              gn_item_is_occluded(scene, item),
                              item->casts,
-                             item->still,
+                             item->stays,
+                             stays,
                              pose->items[i].visible};
     const float cut[] = {m->alpha_cutoff, m->base_color[3]};
     h = gn_hash(h, what, sizeof what);
     h = gn_hash(h, cut, sizeof cut);
     h = gn_hash(h, &pose->items[i].hash, sizeof pose->items[i].hash); /* its place, its weights */
-    if (item->still) h = hash_targets(h, geometry);
     if (m->alpha == GN_ALPHA_MASK) h = hash_texture(h, scene, &m->textures[GN_TEXTURE_BASE], seen);
     if (m->shadow_catcher) h = hash_texture(h, scene, &m->textures[GN_TEXTURE_OCCLUSION], seen);
     return h;
 }
 
-uint64_t gn_occlusion_key(const struct gn_scene *scene, const struct gn_sky *sky) {
+uint64_t gn_occlusion_key(const struct gn_scene *scene, int clips, const struct gn_sky *sky) {
     bool *seen = gn_xalloc(scene->pictures.image_count, sizeof *seen);
+    struct gn_poses_place *places = gn_xalloc(scene->item_count, sizeof *places);
     struct gn_pose pose;
-    gn_pose_init(&pose, scene, GN_POSE_NONE);
+    gn_pose_init(&pose, scene, clips);
+    const int poses = gn_poses_occlusion(&pose, places);
     uint64_t h = gn_hash(GN_HASH_INIT, GN_RAYS_SOURCES, sizeof GN_RAYS_SOURCES);
     h = gn_hash(h, sky, sizeof *sky);
     h = gn_hash(h, &scene->occlusion, sizeof scene->occlusion);
     h = hash_buffers(h, &scene->buffers);
-    for (uint32_t i = 0; i < scene->item_count; i++) h = hash_item(h, &pose, i, seen);
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (places[i].stays) h = hash_targets(h, &scene->geometries[scene->items[i].geometry]);
+    for (int p = 0; p < poses; p++) {
+        gn_poses_step(&pose, p, poses);
+        for (uint32_t i = 0; i < scene->item_count; i++)
+            h = hash_item(h, &pose, i, places[i].stays, seen);
+    }
     gn_pose_finish(&pose);
+    free(places);
     free(seen);
     return h;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/arena.h"
+#include "scene/private.h"
 #include "unit/gltf_maker.h"
 
 const char *const gn_occlusion_names[GN_OCCLUSION_SCENES] = {"pavilion", "table", "room", "plates"};
@@ -123,7 +124,7 @@ struct gn_scene *gn_occlusion_scene(enum gn_occlusion_scene which, struct gn_err
 
 /* ---- the measure ---- */
 
-enum { VIEWS = 2 };
+enum { VIEWS = 2, TIMES = 10 };
 
 static int compare_floats(const void *a, const void *b) {
     const float x = *(const float *)a, y = *(const float *)b;
@@ -164,36 +165,57 @@ static void measure_pixel(const struct gn_occlusion *o, const struct gn_ray_surf
     *off = (float)fabs(read - (seen[0] + seen[1]) / 2);
 }
 
-struct gn_occlusion_score gn_occlusion_measure(const struct gn_scene *scene,
+struct sums {
+    double of[3]; /* as measure_pixel() adds them */
+    float *off;
+    uint32_t pixels;
+};
+
+/* From all sides. */
+static void measure_moment(const struct gn_scene *scene, const struct gn_moment *at,
+                           const struct gn_sky *sky, const int8_t (*texels)[4], int side_px,
+                           uint32_t rays, struct sums *sums) {
+    struct gn_occlusion o;
+    struct gn_ray_eye eye;
+    gn_occlusion_init(&o, scene, at, sky, NULL);
+    for (int i = 0; i < VIEWS * side_px * side_px; i++) {
+        const int view = i / (side_px * side_px), pixel = i % (side_px * side_px);
+        struct gn_ray_surface surface;
+        if (pixel == 0) turn_eye(&eye, &o.pose, view, side_px);
+        if (!gn_raycast_eye(&o.rays, &eye, pixel % side_px, pixel / side_px, &surface) ||
+            !gn_item_is_occluded(scene, &scene->items[surface.item]))
+            continue;
+        measure_pixel(&o, &surface, texels, sums->pixels, rays, sums->of, &sums->off[sums->pixels]);
+        sums->pixels++;
+    }
+    gn_occlusion_finish(&o);
+}
+
+struct gn_occlusion_score gn_occlusion_measure(const struct gn_scene *scene, int clips,
                                                const struct gn_sky *sky, const int8_t (*texels)[4],
                                                int side_px, uint32_t rays) {
     struct gn_occlusion_score score = {.pixels = 0};
-    struct gn_occlusion o;
-    gn_occlusion_init(&o, scene, sky, NULL);
-    float *off = gn_xalloc((size_t)(VIEWS * side_px * side_px), sizeof *off);
-    double sums[3] = {0};
-    for (int view = 0; view < VIEWS; view++) {
-        struct gn_ray_eye eye;
-        turn_eye(&eye, &o.pose, view, side_px);
-        for (int i = 0; i < side_px * side_px; i++) {
-            struct gn_ray_surface surface;
-            if (!gn_raycast_eye(&o.rays, &eye, i % side_px, i / side_px, &surface) ||
-                !gn_item_is_occluded(scene, &scene->items[surface.item]))
-                continue;
-            measure_pixel(&o, &surface, texels, score.pixels, rays, sums, &off[score.pixels]);
-            score.pixels++;
-        }
+    struct gn_pose pose;
+    gn_pose_init(&pose, scene, clips);
+    const int64_t period_ns = gn_scene_period_ns(&pose);
+    const int times = period_ns > 0 ? TIMES : 1;
+    struct sums sums = {.off =
+                            gn_xalloc((size_t)(times * VIEWS * side_px * side_px), sizeof(float))};
+    for (int t = 0; t < times; t++) {
+        gn_pose_step(&pose, (int64_t)((t + .37) / times * (double)period_ns));
+        measure_moment(scene, &pose.at, sky, texels, side_px, rays, &sums);
     }
-    if (score.pixels > 0) {
-        const double count = score.pixels;
-        qsort(off, score.pixels, sizeof *off, compare_floats);
-        score.rmse = sqrt(fmax(sums[0], 0) / count);
-        score.none = sqrt(sums[1] / count);
-        score.bias = sums[2] / count;
-        score.p95 = (double)off[(size_t)(.95 * count)];
-        score.p999 = (double)off[(size_t)(.999 * count)];
+    gn_pose_finish(&pose);
+    if (sums.pixels > 0) {
+        const double count = sums.pixels;
+        qsort(sums.off, sums.pixels, sizeof *sums.off, compare_floats);
+        score.pixels = sums.pixels;
+        score.rmse = sqrt(fmax(sums.of[0], 0) / count);
+        score.none = sqrt(sums.of[1] / count);
+        score.bias = sums.of[2] / count;
+        score.p95 = (double)sums.off[(size_t)(.95 * count)];
+        score.p999 = (double)sums.off[(size_t)(.999 * count)];
     }
-    free(off);
-    gn_occlusion_finish(&o);
+    free(sums.off);
     return score;
 }

@@ -26,9 +26,9 @@ struct gn_occlusion_score {
     double bias;       /* lighter than the rays: positive */
     uint32_t pixels;   /* items with a volume, seen from two sides */
 };
-/* In pictures of so many pixels to a side, with so many rays for each. texels NULL: 1 everywhere.
- */
-struct gn_occlusion_score gn_occlusion_measure(const struct gn_scene *scene,
+/* In pictures of so many pixels to a side, with so many rays for each, over ten times of the clips,
+ * between those that the volume is made of, if there are any. texels NULL: 1 everywhere. */
+struct gn_occlusion_score gn_occlusion_measure(const struct gn_scene *scene, int clips,
                                                const struct gn_sky *sky, const int8_t (*texels)[4],
                                                int side_px, uint32_t rays);
 

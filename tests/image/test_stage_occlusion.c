@@ -13,20 +13,26 @@
 #include "stage/occlusion.h"
 #include "unit/check.h"
 #include "unit/gl_help.h"
+#include "unit/gltf_maker.h"
 
 static struct gn_scene *scene;
+static struct gn_pose pose;
 static struct gn_frame_opts opts;
+static const struct gn_sky even = {.turn = {1, 0}};
 
 static int setup(void **state) {
     struct gn_err err = {0};
     (void)state;
     opts = (struct gn_frame_opts){.occlusion.on = true};
     scene = gn_occlusion_scene(GN_OCCLUSION_PAVILION, &err);
-    return scene ? 0 : -1;
+    if (!scene) return -1;
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+    return 0;
 }
 
 static int teardown(void **state) {
     (void)state;
+    gn_pose_finish(&pose);
     gn_scene_destroy(scene);
     return 0;
 }
@@ -37,7 +43,7 @@ static void wait_for_thread(struct gn_occluder *o, int64_t now_ns) {
     while (gn_occluder_works(o)) {
         nanosleep(&little, NULL);
         gn_occluder_step(o, now_ns);
-        gn_occluder_give(o, &opts, false);
+        gn_occluder_give(o, &pose, &opts, false);
     }
 }
 
@@ -57,13 +63,13 @@ static int largest_step(const int8_t *a, const int8_t *b) {
 static void now_it_is_complete(void **state) {
     struct gn_occluder *o = gn_occluder_create(scene);
     (void)state;
-    gn_occluder_give(o, &opts, true);
+    gn_occluder_give(o, &pose, &opts, true);
     assert_non_null(opts.occlusion.texels);
     assert_true(opts.occlusion.id > 0);
     assert_false(gn_occluder_works(o));
     assert_false(gn_occluder_fades(o));
     const uint64_t id = opts.occlusion.id;
-    gn_occluder_give(o, &opts, true); /* it is made once */
+    gn_occluder_give(o, &pose, &opts, true); /* it is made once */
     assert_true(opts.occlusion.id == id);
     gn_occluder_destroy(o);
 }
@@ -72,8 +78,8 @@ static void a_thread_makes_the_same_and_it_fades_in(void **state) {
     struct gn_occluder *now = gn_occluder_create(scene), *o = gn_occluder_create(scene);
     struct gn_frame_opts complete = opts;
     (void)state;
-    gn_occluder_give(now, &complete, true);
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(now, &pose, &complete, true);
+    gn_occluder_give(o, &pose, &opts, false);
     assert_null(opts.occlusion.texels); /* no frame waits for it */
     assert_true(opts.occlusion.id == 0);
     assert_true(gn_occluder_works(o));
@@ -87,7 +93,7 @@ static void a_thread_makes_the_same_and_it_fades_in(void **state) {
     int frames = 0;
     for (; gn_occluder_fades(o); frames++) {
         gn_occluder_step(o, 5 * GN_NS_PER_S + frames * GN_NS_PER_S / 60);
-        gn_occluder_give(o, &opts, false);
+        gn_occluder_give(o, &pose, &opts, false);
         const int8_t *texels = opts.occlusion.texels[0];
         assert_true(opts.occlusion.id != id); /* GL sends it again */
         assert_true(largest_step(before, texels) <= 4);
@@ -97,7 +103,7 @@ static void a_thread_makes_the_same_and_it_fades_in(void **state) {
     assert_true(frames > 60);
     assert_memory_equal(opts.occlusion.texels, complete.occlusion.texels, texel_bytes());
     gn_occluder_step(o, 9 * GN_NS_PER_S);
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     assert_true(opts.occlusion.id == id);
     free(before);
     gn_occluder_destroy(now);
@@ -112,37 +118,99 @@ static void another_environment_is_made_anew(void **state) {
         side.whole.harmonics[0][k] = 1;
         side.whole.harmonics[3][k] = .4f;
     }
-    gn_occluder_give(o, &opts, true);
+    gn_occluder_give(o, &pose, &opts, true);
     int8_t *before = malloc(texel_bytes());
     if (!before) abort();
     memcpy(before, opts.occlusion.texels, texel_bytes());
     opts.environment.of = &side;
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     assert_memory_equal(opts.occlusion.texels, before, texel_bytes()); /* until it is there */
     wait_for_thread(o, GN_NS_PER_S);
     gn_occluder_step(o, GN_NS_PER_S);
     gn_occluder_step(o, 4 * GN_NS_PER_S);
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     assert_true(largest_step(before, opts.occlusion.texels[0]) > 6);
 
     /* changed while a thread works on the one before: that is not shown */
     opts.environment.turn_rad = 1;
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     opts.environment = (struct gn_frame_environment_opts){0};
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     wait_for_thread(o, 5 * GN_NS_PER_S);
     gn_occluder_step(o, 9 * GN_NS_PER_S);
     gn_occluder_step(o, 12 * GN_NS_PER_S);
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     assert_memory_equal(opts.occlusion.texels, before, texel_bytes());
     free(before);
+    gn_occluder_destroy(o);
+}
+
+/* A plate under a blade that its clip turns. */
+static void load_turning(void) {
+    static const float times[3] = {0, 1, 2},
+                       turns[3][4] = {{0, 0, 0, 1}, {0, 1, 0, 0}, {0, 0, 0, -1}};
+    struct gn_warnings warnings = {0};
+    struct gn_err err = {0};
+    struct gn_maker maker;
+    char json[200];
+    teardown(NULL);
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_add(&maker, "nodes", "{'mesh':0,'translation':[0,0.4,0],'scale':[0.9,1,0.4]}");
+    gn_maker_set(&maker, "scenes", "[{'nodes':[0,1]}]");
+    const int time =
+        gn_maker_accessor(&maker, "SCALAR", 5126, 3, times, sizeof times, "'min':[0],'max':[2]");
+    const int turn = gn_maker_accessor(&maker, "VEC4", 5126, 3, turns, sizeof turns, NULL);
+    snprintf(json, sizeof json,
+             "{'samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':"
+             "{'node':1,'path':'rotation'}}]}",
+             time, turn);
+    gn_maker_add(&maker, "animations", json);
+    scene = gn_maker_load(&maker, &warnings, &err);
+    if (!scene) fail_msg("%s", err.text);
+    gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
+}
+
+/* Neither when a clip begins nor when it ends is there a step. */
+static void other_clips_are_faded_to(void **state) {
+    (void)state;
+    load_turning();
+    struct gn_occluder *o = gn_occluder_create(scene);
+    int8_t *before = malloc(texel_bytes()), *first = malloc(texel_bytes());
+    if (!before || !first) abort();
+    gn_occluder_give(o, &pose, &opts, true);
+    memcpy(first, opts.occlusion.texels, texel_bytes());
+    for (int i = 0; i < 2; i++) {
+        const int64_t begun_ns = (5 + 5 * i) * GN_NS_PER_S;
+        gn_pose_choose(&pose, i ? GN_POSE_DEFAULT : GN_POSE_NONE);
+        gn_occluder_give(o, &pose, &opts, false);
+        memcpy(before, opts.occlusion.texels, texel_bytes());
+        wait_for_thread(o, begun_ns);
+        int frames = 0;
+        for (; gn_occluder_fades(o); frames++) {
+            gn_occluder_step(o, begun_ns + frames * GN_NS_PER_S / 60);
+            gn_occluder_give(o, &pose, &opts, false);
+            assert_true(largest_step(before, opts.occlusion.texels[0]) <= 4);
+            memcpy(before, opts.occlusion.texels, texel_bytes());
+        }
+        assert_true(frames > 60);
+        const int off = largest_step(first, opts.occlusion.texels[0]);
+        assert_true(i ? off == 0 : off > 6);
+    }
+    gn_pose_step(&pose, GN_NS_PER_S / 2); /* the time alone changes nothing */
+    gn_occluder_give(o, &pose, &opts, false);
+    assert_false(gn_occluder_works(o));
+    assert_true(gn_occlusion_key(scene, GN_POSE_NONE, &even) !=
+                gn_occlusion_key(scene, GN_POSE_DEFAULT, &even));
+    free(before);
+    free(first);
     gn_occluder_destroy(o);
 }
 
 static void it_ends_while_a_thread_works(void **state) {
     struct gn_occluder *o = gn_occluder_create(scene);
     (void)state;
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     assert_true(gn_occluder_works(o));
     const struct timespec little = {.tv_nsec = 30000000};
     nanosleep(&little, NULL);
@@ -171,7 +239,7 @@ static int8_t *make_complete(void) {
     struct gn_occluder *o = gn_occluder_create(scene);
     int8_t *texels = malloc(texel_bytes());
     if (!texels) abort();
-    gn_occluder_give(o, &opts, true);
+    gn_occluder_give(o, &pose, &opts, true);
     memcpy(texels, opts.occlusion.texels, texel_bytes());
     gn_occluder_destroy(o);
     return texels;
@@ -185,7 +253,7 @@ static void what_was_made_is_read_again_unless_it_is_damaged(void **state) {
     (void)state;
     setenv("CACHE_DIRECTORY", folder, 1);
     struct gn_occluder *o = gn_occluder_create(scene);
-    gn_occluder_give(o, &opts, false);
+    gn_occluder_give(o, &pose, &opts, false);
     gn_occluder_destroy(o);
     assert_false(find_kept(folder, path)); /* it was not done */
     int8_t *made = make_complete();
@@ -222,10 +290,7 @@ static void what_was_made_is_read_again_unless_it_is_damaged(void **state) {
     help_remove(folder);
 }
 
-static uint64_t key(void) {
-    static const struct gn_sky even = {.turn = {1, 0}};
-    return gn_occlusion_key(scene, &even);
-}
+static uint64_t key(void) { return gn_occlusion_key(scene, GN_POSE_NONE, &even); }
 
 #define ASSERT_MATTERS(place, value)                                                               \
     do {                                                                                           \
@@ -254,7 +319,7 @@ static void all_that_it_is_made_of_is_in_its_key(void **state) {
     ASSERT_MATTERS(scene->buffers.normals[3], 77);
     ASSERT_MATTERS(scene->buffers.indices[3], scene->buffers.indices[3] + 1);
     ASSERT_MATTERS(scene->nodes[scene->items[0].node].translation[1], 77);
-    ASSERT_MATTERS(scene->items[0].still, !scene->items[0].still);
+    ASSERT_MATTERS(scene->items[0].stays, !scene->items[0].stays);
     ASSERT_MATTERS(scene->items[0].casts, !scene->items[0].casts);
     ASSERT_MATTERS(scene->items[0].hidden_in, 1);
     ASSERT_MATTERS(scene->occlusion.cell_m, 77);
@@ -275,7 +340,7 @@ static void all_that_it_is_made_of_is_in_its_key(void **state) {
     scene->pictures = pictures;
 
     struct gn_sky other = {.turn = {1, 0}, .radiance = {1}};
-    assert_true(gn_occlusion_key(scene, &other) != first);
+    assert_true(gn_occlusion_key(scene, GN_POSE_NONE, &other) != first);
 }
 
 static void a_sky_has_the_radiance_of_its_harmonics(void **state) {
@@ -299,6 +364,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(now_it_is_complete, setup, teardown),
         cmocka_unit_test_setup_teardown(a_thread_makes_the_same_and_it_fades_in, setup, teardown),
         cmocka_unit_test_setup_teardown(another_environment_is_made_anew, setup, teardown),
+        cmocka_unit_test_setup_teardown(other_clips_are_faded_to, setup, teardown),
         cmocka_unit_test_setup_teardown(it_ends_while_a_thread_works, setup, teardown),
         cmocka_unit_test_setup_teardown(what_was_made_is_read_again_unless_it_is_damaged, setup,
                                         teardown),
