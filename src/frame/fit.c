@@ -84,10 +84,9 @@ void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
         const uint32_t asked = shadow->map_px, most = gn_frame_most_px(frame, light, 1);
         if (asked > most) shadow->map_px = most;
         gn_frame_make_memories(frame, slot, gn_shadow_tile_count(l->type, light->technique));
-        if (light->opts.cascades == 0)
-            shadow->cascades = gn_frame_choose_cascades(frame, pose, opts, slot, shadow);
-        else
-            shadow->cascades = gn_cascade_can(l, &frame->eye, shadow) ? light->opts.cascades : 1;
+        const bool can = gn_cascade_can(l, &frame->eye, shadow);
+        if (light->opts.cascades > 0) shadow->cascades = can ? light->opts.cascades : 1;
+        if (light->opts.cascades <= 1) gn_frame_choose_map(frame, pose, opts, slot, shadow);
         light->cascades = shadow->cascades;
         take_mipmaps(frame, light, shadow, warnings);
         if (shadow->cascades > 1) gn_frame_make_memories(frame, slot, GN_CASCADE_MEMORIES);

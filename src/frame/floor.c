@@ -26,8 +26,7 @@ static bool is_soft_and_made(const struct gn_frame *frame, const struct gn_frame
            frame->scene->lights[light->light].type == GN_LIGHT_DIRECTIONAL;
 }
 
-/* Whether something casts, and nothing that does can move. */
-static bool casters_stand(const struct gn_pose *pose) {
+bool gn_frame_casters_stand(const struct gn_pose *pose) {
     bool any = false;
     for (uint32_t i = 0; i < pose->scene->item_count; i++) {
         if (!gn_shadow_item_casts(pose->scene, i)) continue;
@@ -50,7 +49,7 @@ void gn_frame_take_floor(struct gn_frame *frame, const struct gn_pose *pose,
     if (!scene->added.light || !scene->added.floor || frame->light_count != 1 ||
         frame->view_count != 1 || scene->triangle_count > MOST_TRIANGLES ||
         (opts->debug.aov != GN_AOV_COLOR && opts->debug.aov != GN_AOV_VISIBILITY) ||
-        !is_soft_and_made(frame, &frame->lights[0]) || !casters_stand(pose))
+        !is_soft_and_made(frame, &frame->lights[0]) || !gn_frame_casters_stand(pose))
         return;
     frame->floor.item = floor_of(scene);
     frame->floor.is_apart =

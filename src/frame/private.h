@@ -40,12 +40,17 @@ enum {
     GN_CASCADE_CHOICES = 8
 }; /* combinations of camera, map and picture size that are remembered */
 
-/* How many cascades a light has. */
+/* How many cascades a light has, and how wide a map, or each of them, is. */
+struct gn_map_choice {
+    uint32_t cascades, px;
+    bool fixed; /* as in gn_shadow_opts */
+};
 struct gn_cascade_choice {
-    uint64_t choice; /* hash of the options that it is for */
-    uint32_t count;  /* 0: not known yet */
-    uint64_t judged; /* hash of the orbit that was judged last */
-    float borne_px;  /* accepted texel size: more cascades would not help */
+    uint64_t choice;           /* hash of the options that it is for */
+    struct gn_map_choice map;  /* no cascades: not known yet */
+    struct gn_map_choice home; /* chosen before the user moved the camera; none: zeroed */
+    uint64_t judged;           /* hash of the orbit that was judged last */
+    float borne_px;            /* accepted texel size: another map would not help */
 };
 
 /* What is known of a scene's light, and which warnings it had. */
@@ -210,6 +215,8 @@ void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts
 
 /* ---- floor.c: an unseen floor, while nothing that casts can move ---- */
 
+/* Whether something casts, and nothing that does can move. */
+bool gn_frame_casters_stand(const struct gn_pose *pose);
 /* After the lights are chosen: whether its alpha has a texture, in a slot of its own. */
 void gn_frame_take_floor(struct gn_frame *frame, const struct gn_pose *pose,
                          const struct gn_frame_opts *opts);
@@ -274,13 +281,13 @@ void gn_frame_slide_constants(const struct gn_frame *frame, const struct gn_pose
 
 void gn_frame_fit_shadows(struct gn_frame *frame, const struct gn_pose *pose,
                           const struct gn_frame_opts *opts, struct gn_warnings *warnings);
-/* How many cascades a light has. Chosen once, for the current camera and, if it is animated, for
- * eight points of its path, and again when options change that matter: while the camera moves
- * neither programs nor targets change. opts: of the fit, map_px of a map without cascades,
- * cascades: the most. */
-uint32_t gn_frame_choose_cascades(struct gn_frame *frame, const struct gn_pose *pose,
-                                  const struct gn_frame_opts *frame_opts, uint32_t slot,
-                                  const struct gn_shadow_opts *opts);
+/* How many cascades a light has, and whether its map is the same for every eye. Chosen once, for
+ * the current camera and, if it is animated, for eight points of its path, and again when options
+ * change that matter: while the camera moves neither programs nor targets change. opts: of the fit,
+ * map_px of a map without cascades, cascades: the most; becomes what is chosen. */
+void gn_frame_choose_map(struct gn_frame *frame, const struct gn_pose *pose,
+                         const struct gn_frame_opts *frame_opts, uint32_t slot,
+                         struct gn_shadow_opts *opts);
 struct gn_frame_light *gn_frame_light_of_slot(struct gn_frame *frame, uint32_t slot);
 uint32_t gn_frame_plane_of_slot(const struct gn_frame *frame, uint32_t slot); /* from 1 */
 /* Gives planar lights slots on further planes: all of a group's on one plane follow each other. */

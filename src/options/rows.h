@@ -39,7 +39,7 @@ GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .
 GN_OPTION(.name = "shadow", .section = "render", .kind = GN_KIND_TECHNIQUES, .value = "TECHNIQUE", .fallback = "pcf",
           .help = "shadow technique, cone for the key light of a scene without lights; for bench a comma-separated list", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(technique), .offset = FIELD(render.shadow))
 GN_OPTION(.name = "map", .section = "render", .kind = GN_KIND_INT, .min = 16, .max = 16384, .value = "PX", .unit = "pixels",
-          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm)", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_px), .offset = FIELD(render.map_px))
+          .fallback = "1024", .help = "shadow map resolution in texels (512 for vssm and smsm); not given, up to 2048 where a map then stays as it is while the camera moves", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_px), .offset = FIELD(render.map_px))
 GN_OPTION(.name = "map-format", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_formats, .value = "FORMAT", .fallback = "auto",
           .help = "texture format of shadow maps; rg32ui and those after it: for filtered techniques", .commands = DRAW, .change = GN_CHANGE_LIVE, .of_light = true, .target = LIGHT(map_format), .offset = FIELD(render.map_format))
 GN_OPTION(.name = "map-clear", .section = "render", .kind = GN_KIND_CHOICE, .choices = map_ends, .value = "END", .fallback = "far",

@@ -34,8 +34,9 @@ bool gn_cascade_can(const struct gn_light *light, const struct gn_eye *eye,
                     const struct gn_shadow_opts *opts);
 
 /* The largest apparent size of a texel of such a view: metres per metre of distance from the
- * camera; 0 when nothing visible is in shadow. Allocates nothing; memory: one where opts->cascades
- * is 0 or 1, else GN_CASCADE_MEMORIES. */
+ * camera; of a spot, whatever the camera sees of it, per metre of distance from the light; on a
+ * plane metres. 0 when nothing visible is in shadow, and the map is not fixed. Allocates nothing;
+ * memory: one where opts->cascades is 0 or 1, else GN_CASCADE_MEMORIES. */
 float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
                          const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory);
 

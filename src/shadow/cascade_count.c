@@ -17,6 +17,7 @@ float gn_cascade_tangent(const struct gn_pose *pose, uint32_t light, const struc
     struct gn_shadow_view view;
     struct gn_distances seen;
     if (!gn_shadow_fit(pose, light, eye, opts, memory, &view)) return 0.0f;
+    if (view.perspective || gn_techniques[view.technique].on_plane) return view.lookup.texel;
     const struct gn_fitter f = {.pose = pose,
                                 .eye = eye,
                                 .memory = memory,

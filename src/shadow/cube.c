@@ -32,7 +32,7 @@ static bool find_tiles(struct gn_fitter *f, struct gn_shadow_region *depths) {
 
         struct gn_window own;
         gn_fitter_remember(f);
-        tile->empty = !gn_window_find(f, false, &own);
+        tile->empty = !gn_window_find(f, view->fixed, &own);
         found |= !tile->empty;
         unite(depths, &own.depths);
     }

@@ -112,6 +112,7 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                 .all_receive = opts->all_receive,
                                 .whole = opts->whole,
                                 .but_floor = opts->but_floor,
+                                .fixed = opts->fixed && opts->cascades <= 1,
                                 .square = opts->square,
                                 .faces_given = faces > 0 && !row->on_plane,
                                 .faces = (enum gn_cast_faces)(faces > 0 ? faces - 1 : 0),

@@ -5,7 +5,8 @@
  * tangents (x/z, y/z). The map is an extent in them: the smallest that holds every place where a
  * caster can darken something visible, of a width from a geometric series and with its corner on a
  * whole texel, so that it moves by whole texels when the camera moves, and a directional one then
- * holds the same bits (shadow/pages.h).
+ * holds the same bits (shadow/pages.h). A `fixed` map holds what is not visible, too, and stays as
+ * it is wherever the camera goes.
  *
  * A point light has six such maps, the tiles of an atlas: each looks along an axis of the world, 45
  * degrees to each side and a gutter more, as wide as the technique's filter, so that what is read
@@ -37,8 +38,10 @@ struct gn_shadow_opts {
         float held_m;            /* half of its middle part that the window holds in any case */
     } square;                    /* technique FLOOR: of the floor, whose rim has no shadow */
     bool but_floor;              /* the unseen floor does not receive from this map */
-    struct gn_light_opts light;  /* what holds for the light; what is not given is the scene's, or
-                                    the technique's. The fields above are already chosen by it */
+    bool fixed; /* the same map for every eye: of all that casts and receives, seen or not. Not of
+                   cascades, nor on a plane, where `whole` says so */
+    struct gn_light_opts light; /* what holds for the light; what is not given is the scene's, or
+                                   the technique's. The fields above are already chosen by it */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
                           one need an eye with a perspective */
 };
@@ -183,7 +186,7 @@ struct gn_shadow_view {
     enum gn_moments moments;        /* what shaders read in the map's place; NONE: the map */
     uint32_t plane;                 /* as in gn_shadow_opts */
     bool all_receive;               /* as in gn_shadow_opts */
-    bool whole, but_floor;          /* likewise */
+    bool whole, but_floor, fixed;   /* likewise */
     struct gn_shadow_square square; /* likewise */
     bool faces_given;
     enum gn_cast_faces faces; /* given: of all casters, in place of their own */

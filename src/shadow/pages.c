@@ -86,10 +86,12 @@ static void set_clip(const struct gn_shadow_view *view, const double corner[2], 
 /* Chooses the texel, and returns the window that the pages begin with; it depends on the texel
  * alone, not on the eye. Where the window of all that any eye sees needs a texel at most one step
  * larger, that window is taken: then the map does not move with the eye. Its upper bound (`most`)
- * is tried first, since it is known already. */
+ * is tried first, since it is known already. The window of a fixed map is of all as it is. */
 static struct gn_shadow_region choose_texel(const struct gn_fitter *f,
                                             const struct gn_window *found) {
     const float fine = texel_for(f, &found->window), next = 1.001f * gn_shadow_step(1.01f * fine);
+    f->view->lookup.texel = fine;
+    if (f->view->fixed) return found->window;
     f->view->lookup.texel = texel_for(f, &found->most);
     if (f->view->lookup.texel <= next) return found->most;
     struct gn_window all = *found;

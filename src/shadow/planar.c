@@ -243,15 +243,15 @@ static struct gn_shadow_region receivers_of(const struct planar *f, const struct
      * bottom, top; near and far are not used) */
     vec4 planes[12];
     int count = f->view->whole ? 0 : 6;
-    memcpy(planes, f->eye->planes, sizeof f->eye->planes);
+    memcpy(planes, f->eye->planes, (size_t)count * sizeof *planes);
     if (gn_light_types[light->type].has_cone) {
         mat4 look, lens;
         gn_shadow_look(f->view, look);
         glm_perspective(2.0f * fminf(light->outer_rad, CONE_MAX_RAD), 1.0f, 1e-3f * f->scene_size_m,
                         f->scene_size_m, lens);
         glm_mat4_mul(lens, look, look);
-        glm_frustum_planes(look, planes + 6);
-        count = 10;
+        glm_frustum_planes(look, planes + count);
+        count += 4;
     }
     for (uint32_t i = 0; i < f->pose->scene->item_count; i++) {
         if (!is_receiver(f, i)) continue;

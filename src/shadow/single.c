@@ -5,24 +5,36 @@
 
 #define LEAST_TANGENT 1e-6f /* least side of a spot light's window */
 
+/* The window of what this eye sees, and the one that the map holds. A fixed map has something to
+ * hold even where the eye sees none of it. False: it has nothing. */
+static bool find_windows(const struct gn_fitter *f, struct gn_window *seen,
+                         struct gn_window *held) {
+    const bool is_seen = gn_window_find(f, false, seen);
+    *held = *seen;
+    if (!f->view->fixed || (is_seen && gn_window_is_all(f))) return is_seen;
+    if (!gn_window_find(f, true, held)) return false;
+    if (!is_seen) *seen = *held;
+    return true;
+}
+
 bool gn_single_fit(struct gn_fitter *f) {
     struct gn_shadow_view *view = f->view;
     const struct gn_light *light = &f->pose->lights[view->light];
-    struct gn_window found;
+    struct gn_window found, held;
     float near_depth, far_depth;
     gn_shadow_look(view, f->tile->light_from_world);
     if (gn_light_types[light->type].has_cone)
         gn_fitter_set_cone(f, tanf(fminf(light->outer_rad, GN_SPOT_MAX_RAD)));
     gn_fitter_remember(f);
-    if (!gn_window_find(f, false, &found)) return false;
+    if (!find_windows(f, &found, &held)) return false;
     gn_fitter_set_depths(f, &found.depths, &near_depth, &far_depth);
     gn_fitter_set_code(f, near_depth, far_depth);
     if (view->perspective) {
         double low[2];
-        gn_shadow_snap(view, found.window.min, found.window.max, LEAST_TANGENT, low);
+        gn_shadow_snap(view, held.window.min, held.window.max, LEAST_TANGENT, low);
         gn_shadow_set_frustums(view, low, near_depth, far_depth);
     } else {
-        gn_pages_fit(f, &found, near_depth, far_depth);
+        gn_pages_fit(f, view->fixed ? &held : &found, near_depth, far_depth);
     }
 
     mat4 map_from_clip = {{0.5f, 0, 0, 0}, {0, 0.5f, 0, 0}, {0, 0, 0.5f, 0}, {0.5f, 0.5f, 0.5f, 1}};
@@ -36,6 +48,8 @@ bool gn_single_fit(struct gn_fitter *f) {
                 depth * view->code.scale + (c == 3 ? view->code.offset : 0.0f);
         }
     gn_fitter_set_penumbra(f, &found.window, near_depth, far_depth);
+    view->penumbra.widest_px =
+        view->penumbra.radius * gn_fitter_spread(f, held.window.near, held.window.far);
     gn_fitter_set_blur(f, near_depth, far_depth);
     return true;
 }

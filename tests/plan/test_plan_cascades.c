@@ -246,7 +246,8 @@ static void test_a_clip_over_others_flies_as_well(void **state) {
     assert_true(differ > 0);
 }
 
-/* Four leave the sundial's texels over two pixels, and hardly smaller than two do. */
+/* Four maps of 1024 leave the sundial's texels over two pixels, and hardly smaller than two do. One
+ * of 2048 has as small ones, where the size is left open. */
 static void test_more_that_help_little_are_not_taken(void **state) {
     (void)state;
     const uint32_t widths_px[] = {640, 1280, 1920};
@@ -256,6 +257,9 @@ static void test_more_that_help_little_are_not_taken(void **state) {
         struct gn_scene *scene = gn_scene_load("assets/sundial.glb", NULL, NULL, &err);
         if (!scene) fail_msg("%s", err.text);
         begin(&f, scene, 4096);
+        assert_int_equal(view_of(&f)->map.cascade_count, 0);
+        assert_int_equal(view_of(&f)->map.tile_px, 2048);
+        GN_LIGHT_SET(&f.opts.shadow.any, map_px, 1024);
         f.opts.output.width_px = widths_px[i];
         f.opts.output.height_px = widths_px[i] * 9 / 16;
         assert_int_equal(view_of(&f)->map.cascade_count, 2);
