@@ -79,7 +79,7 @@ GN_OPTION(.name = "environment-strength", .section = "render", .kind = GN_KIND_N
 GN_OPTION(.name = "environment-show", .section = "render", .kind = GN_KIND_CHOICE, .choices = environment_shows, .value = "no|yes|blur", .fallback = "no",
           .help = "draw the environment as the background, unless that is transparent", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_show))
 GN_OPTION(.name = "occlusion", .section = "render", .kind = GN_KIND_CHOICE, .choices = occlusions, .value = "auto|none", .fallback = "auto",
-          .help = "ambient occlusion: less light from all directions where the model itself blocks it; auto: where an environment lights the model, on all of it that stays where it is, in the mean over the clips that play, unless the shape is too fine for the 32,768 cubes in which it is measured", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
+          .help = "ambient occlusion: less light from all directions where the model itself blocks it; auto: where an environment lights the model, on all of it that stays where it is over the clips that play, unless the shape is too fine for its 32,768 cubes", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
 GN_OPTION(.name = "gather", .section = "render", .kind = GN_KIND_CHOICE, .choices = gathers, .value = "auto|none", .fallback = "auto",
           .help = "soft shadows of a scene that stands still; auto: after a third of a second they converge to those from many points of each light, until something moves", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.gather))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
