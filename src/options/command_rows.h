@@ -18,7 +18,7 @@ GN_COMMAND(BENCH, bench, .name = "bench", .usage = "bench [OPTION..] [SCENE..]",
 GN_COMMAND(INSPECT, inspect, .name = "inspect", .usage = "inspect [OPTION..] [SCENE]", .what = "lists a scene's contents, cost and problems",
            .examples = {"gnomon inspect scene.glb", "gnomon inspect scene.glb --for pi4 --size 1920x1080"},
            .most = 1, .takes = "only one scene")
-GN_COMMAND(FIT, fit, .name = "fit", .usage = "fit [OPTION..] [SCENE] --for GPU", .what = "chooses settings with which a board draws so many frames a second, before it is there; with -o as a kiosk.ini",
+GN_COMMAND(FIT, fit, .name = "fit", .usage = "fit [OPTION..] [SCENE] --for GPU", .what = "chooses settings with which a board reaches a frame rate; with -o as a kiosk.ini",
            .examples = {"gnomon fit scene.glb --for pi4 --size 1920x1080 -o kiosk.ini", "gnomon fit scene.glb --for g52 --fps 30 --shadow cone"},
            .most = 1, .takes = "only one scene")
 GN_COMMAND(DOCTOR, doctor, .name = "doctor", .usage = "doctor [OPTION..]", .what = "tests this machine and prints how to fix problems",
