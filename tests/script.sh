@@ -15,3 +15,15 @@ complain() {
     echo "FAIL: $*"
     bad=1
 }
+
+# expect STATUS TEXT ARGUMENT..: that status, and one line on stderr that has the text ('' = none)
+expect() {
+    status=$1 text=$2
+    shift 2
+    timeout 60 "$gnomon" "$@" > "$folder/out" 2> "$folder/err" < /dev/null
+    got=$?
+    [ "$got" = "$status" ] || complain "gnomon $*: exit status $got, not $status: $(cat "$folder/err")"
+    lines=$(wc -l < "$folder/err")
+    [ "$lines" = "$([ -n "$text" ] && echo 1 || echo 0)" ] || complain "gnomon $*: $lines lines on stderr"
+    [ -z "$text" ] || grep -qF -- "$text" "$folder/err" || complain "gnomon $*: $(cat "$folder/err")"
+}

@@ -127,9 +127,8 @@ static void print_group(FILE *to, const struct gn_section_row *section, bool sha
 /* Of the options of a command those that most people need; false: it has so few that all are
  * printed. */
 static bool print_first(FILE *to, enum gn_command command) {
-    static const char *const names[] = {"out",    "size",      "shadow", "camera", "time",
-                                        "floor",  "turntable", "frames", "fps",    "check",
-                                        "config", "json",      "for"};
+    static const char *const names[] = {"out",    "size", "shadow", "camera", "time", "turntable",
+                                        "frames", "fps",  "check",  "config", "json", "for"};
     int count = 0;
     for (int i = 0; i < GN_OPTION_COUNT; i++) count += gn_option_rows[i].commands >> command & 1;
     if (count <= FEW) return false;

@@ -140,6 +140,11 @@ static bool is_coarse_in_a_turn(const struct views *v, uint32_t slot,
     return false;
 }
 
+/* A filtered map of a size that is given loses light under lattices by larger texels. */
+static bool may_be_worse(const struct gn_shadow_opts *opts) {
+    return opts->light.map_px == 0 || !gn_technique_replaces_map(opts->technique);
+}
+
 /* The best map of those that follow the camera; or one that stays as it is, if its texels are not
  * much larger: of the same size or, where that is left open, as wide as makes them no larger.
  * False: not known yet. */
@@ -150,12 +155,13 @@ static bool choose_map(struct views *v, uint32_t slot, const struct gn_shadow_op
     const bool has_cascades = map->cascades > 1;
     const uint32_t wide_px = may_widen(v, opts, map) ? WIDEST_PX : 0,
                    most_px = gn_frame_most_px(v->frame, light, 1);
+    const float worse = may_be_worse(opts) ? FIXED_WORSE : 1.0f;
     struct gn_map_choice fixed = {.cascades = 1, .px = opts->map_px, .fixed = true};
     if (best == 0.0f) return false;
     if (!v->stands && !is_seen_as_pixels(v, slot, opts)) return true;
     for (bool is_coarse = true; is_coarse; fixed.px *= 2) {
         const float pixels = texel_pixels(v, slot, opts, fixed);
-        if (pixels <= FIXED_WORSE * best) *map = fixed;
+        if (pixels <= worse * best) *map = fixed;
         is_coarse = 2 * fixed.px <= wide_px && 2 * fixed.px <= most_px &&
                     (pixels > best || (!has_cascades && is_coarse_in_a_turn(v, slot, opts, fixed)));
     }
@@ -210,6 +216,7 @@ static uint64_t basis_of(const struct views *v, const struct gn_shadow_opts *opt
                            gn_techniques[opts->technique].on_plane ? opts->encoding + 1u : 0,
                            v->stands,
                            !v->stands && gn_technique_replaces_map(opts->technique),
+                           may_be_worse(opts),
                            opts->cascades,
                            frame->camera,
                            frame->picture.width_px,
