@@ -101,6 +101,8 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
         if (view.mode == s->drawn.mode && view.scene == s->drawn.scene)
             s->show->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;
     }
+    /* what programs of other modes may take is weighed again: the last mode's maps are gone */
+    if (view.mode != s->drawn.mode) s->ahead.keeps = s->ahead.idle = false;
     s->drawn = view;
     gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_FRAME, .time_ns = seen_ns});
     if (!s->stage.display.ops->screen) gn_gl_finish_frame(s->stage.gl);
