@@ -25,7 +25,7 @@ struct views {
     int64_t lasts_ns;     /* the path */
     int count;
 };
-enum { OTHERS = 8, TURNS = 8 };
+enum { OTHERS = 8, TURNS = 8, MANY_ITEMS = 10000 };
 
 /* Whether its texels are measured as pixels; others are compared with each other. */
 static bool is_seen_as_pixels(const struct views *v, uint32_t slot,
@@ -120,22 +120,26 @@ static bool may_widen(const struct views *v, const struct gn_shadow_opts *opts,
            (v->stands || (map->cascades > 1 && !gn_technique_replaces_map(opts->technique)));
 }
 
-/* Whether one map that follows the camera would have finer texels somewhere on a turntable. */
+/* Whether one map that follows the camera would have finer texels somewhere on a turntable; of very
+ * many items, for which that takes long, it is assumed. */
 static bool is_coarse_in_a_turn(const struct views *v, uint32_t slot,
                                 const struct gn_shadow_opts *opts, struct gn_map_choice fixed) {
     const uint32_t light = gn_frame_light_of_slot(v->frame, slot)->light;
     const struct gn_map_choice follows = {.cascades = 1, .px = opts->map_px};
     struct gn_frame_opts turned = *v->opts;
     struct gn_eye eye = v->frame->eye;
+    struct gn_shadow_view view;
+    struct gn_shadow_opts some = measured(v, slot, opts, fixed);
+    if (v->frame->scene->item_count > MANY_ITEMS) return true;
+    if (!gn_shadow_fit(v->now, light, &eye, &some, v->frame->memory[slot], &view)) return false;
+    some = measured(v, slot, opts, follows);
     for (int i = 1; i < TURNS; i++) {
-        struct gn_shadow_view finer, view;
-        struct gn_shadow_opts some = measured(v, slot, opts, follows);
+        struct gn_shadow_view finer;
         turned.view.turntable_rad = v->opts->view.turntable_rad + 2 * GLM_PIf * (float)i / TURNS;
         gn_frame_eye_at(v->frame, v->now, &turned, &eye);
-        if (!gn_shadow_fit(v->now, light, &eye, &some, v->frame->memory[slot], &finer)) continue;
-        some = measured(v, slot, opts, fixed);
-        gn_shadow_fit(v->now, light, &eye, &some, v->frame->memory[slot], &view);
-        if (view.lookup.texel > finer.lookup.texel) return true;
+        if (gn_shadow_fit(v->now, light, &eye, &some, v->frame->memory[slot], &finer) &&
+            view.lookup.texel > finer.lookup.texel)
+            return true;
     }
     return false;
 }
