@@ -33,7 +33,7 @@ static void test_rays_of_a_thread_are_those_of_the_picture(void **state) {
                     "truth",  "--aov",  "visibility", "--samples", "4",      NULL};
     static float once[WIDTH * HEIGHT][4], again[WIDTH * HEIGHT][4];
     struct gn_stage stage;
-    const struct gn_plan *plan;
+    const struct gn_plan *plan = NULL;
     if (!gn_args_parse(&options, 12, argv, &warnings, &err) ||
         !gn_stage_take(&stage, options.settings, make_unlit(), &warnings, &err) ||
         !gn_stage_open(&stage, &warnings, &err) ||
