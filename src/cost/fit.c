@@ -54,20 +54,31 @@ struct gn_cost_words gn_cost_words_of(struct gn_cost_vocabulary *v, const char *
 
 /* ---- least squares ---- */
 
-/* Solves m x = b by Cholesky's decomposition; m: symmetric, positive, overwritten; b becomes x. */
+/* row[i] -= factor * other[i]: most words never occur together, so that many factors are 0. */
+static void subtract_row(double *restrict row, const double *restrict other, double factor,
+                         int count) {
+    if (factor == 0) return;
+    for (int i = 0; i < count; i++) row[i] -= factor * other[i];
+}
+
+/* Solves m x = b by Cholesky's decomposition; m: symmetric, positive, its upper half, overwritten;
+ * b becomes x. */
 static void solve(double *m, double *b, int n) {
-    for (int j = 0; j < n; j++)
-        for (int i = j; i < n; i++) {
-            double sum = m[i * n + j];
-            for (int k = 0; k < j; k++) sum -= m[i * n + k] * m[j * n + k];
-            m[i * n + j] = i == j ? sqrt(sum) : sum / m[j * n + j];
+    for (int j = 0; j < n; j++) {
+        double *row = m + (size_t)j * (size_t)n;
+        for (int k = 0; k < j; k++) {
+            const double *other = m + (size_t)k * (size_t)n;
+            subtract_row(row + j, other + j, other[j], n - j);
         }
+        row[j] = sqrt(row[j]);
+        for (int i = j + 1; i < n; i++) row[i] /= row[j];
+    }
     for (int i = 0; i < n; i++) {
-        for (int k = 0; k < i; k++) b[i] -= m[i * n + k] * b[k];
+        for (int k = 0; k < i; k++) b[i] -= m[k * n + i] * b[k];
         b[i] /= m[i * n + i];
     }
     for (int i = n - 1; i >= 0; i--) {
-        for (int k = i + 1; k < n; k++) b[i] -= m[k * n + i] * b[k];
+        for (int k = i + 1; k < n; k++) b[i] -= m[i * n + k] * b[k];
         b[i] /= m[i * n + i];
     }
 }
@@ -82,7 +93,7 @@ void gn_cost_fit(const struct gn_cost_words *rows, const double *y, int count, i
         for (int i = 0; i < rows[row].count; i++) x[rows[row].at[i]] += 1;
         x[words] = 1;
         for (int i = 0; i < n; i++) {
-            for (int k = 0; k <= i && x[i] != 0; k++) m[i * n + k] += x[i] * x[k];
+            for (int k = i; k < n && x[i] != 0; k++) m[i * n + k] += x[i] * x[k];
             weights[i] += x[i] * y[row];
         }
     }
