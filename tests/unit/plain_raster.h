@@ -1,6 +1,6 @@
 /* Another rasteriser, to count what triangles shade: it clips nothing, but has edges and depth as
  * functions of homogeneous corners (Olano, Greer 1997), in double precision, and asks every sample
- * of every pixel. */
+ * of every pixel but those of blocks that are outside an edge as a whole. */
 #ifndef GN_TESTS_UNIT_PLAIN_RASTER_H
 #define GN_TESTS_UNIT_PLAIN_RASTER_H
 

@@ -257,42 +257,68 @@ static struct gn_scene *load_model(const struct model *model) {
                        goes ? places : NULL);
 }
 
-/* A vector as seen from a box that is turned. */
-static void turn_back(const struct box *box, double v[3]) {
-    const double c = cos(box->turn_rad), s = sin(box->turn_rad), x = v[0];
+/* A vector as seen from a box that is turned so far. */
+static void turn_back(double c, double s, double v[3]) {
+    const double x = v[0];
     v[0] = c * x - s * v[2];
     v[2] = s * x + c * v[2];
 }
 
-static bool meets_box(const struct box *box, const double from[3], const double along[3]) {
-    double enters = 0, leaves = 1e9, place[3], way[3];
+/* A box as a ray meets it that begins at a given point. */
+struct target {
+    double place[3], half[3], c, s;
+};
+
+static struct target aim(const struct box *box, const double from[3]) {
+    struct target target = {.c = cos(box->turn_rad), .s = sin(box->turn_rad)};
     for (int k = 0; k < 3; k++) {
-        place[k] = from[k] - (box->least[k] + box->most[k]) / 2;
-        way[k] = along[k];
+        target.place[k] = from[k] - (box->least[k] + box->most[k]) / 2;
+        target.half[k] = (box->most[k] - box->least[k]) / 2;
     }
-    turn_back(box, place);
-    turn_back(box, way);
+    turn_back(target.c, target.s, target.place);
+    return target;
+}
+
+static bool meets(const struct target *target, const double along[3]) {
+    double enters = 0, leaves = 1e9, way[3] = {along[0], along[1], along[2]};
+    turn_back(target->c, target->s, way);
     for (int k = 0; k < 3; k++) {
-        const double half = (box->most[k] - box->least[k]) / 2;
-        const double a = (-half - place[k]) / way[k], b = (half - place[k]) / way[k];
-        enters = fmax(enters, fmin(a, b));
-        leaves = fmin(leaves, fmax(a, b));
+        const double a = (-target->half[k] - target->place[k]) / way[k],
+                     b = (target->half[k] - target->place[k]) / way[k];
+        const double near = a < b ? a : b, far = a < b ? b : a;
+        enters = near > enters ? near : enters;
+        leaves = far < leaves ? far : leaves;
+        if (enters >= leaves) return false;
     }
-    return enters < leaves;
+    return true;
+}
+
+enum { TURNS = 180, RINGS = 30, RAYS = TURNS * RINGS };
+
+/* Equal shares of the sky, weighted by the cosine. */
+static const double (*sky_rays(void))[3] {
+    static double rays[RAYS][3];
+    for (int i = 0; i < RAYS && rays[RAYS - 1][1] == 0; i++) {
+        const double aside = sqrt((i % RINGS + .5) / RINGS),
+                     turn = (i / RINGS + .37) * 2 * acos(-1) / TURNS;
+        rays[i][0] = aside * cos(turn);
+        rays[i][1] = sqrt(1 - aside * aside);
+        rays[i][2] = aside * sin(turn);
+    }
+    return (const double(*)[3])rays;
 }
 
 static double sky_at(const struct model *model, const double from[3]) {
-    enum { TURNS = 180, RINGS = 30 };
+    const double(*rays)[3] = sky_rays();
+    struct target targets[BOXES_MAX];
     int seen = 0;
-    for (int t = 0; t < TURNS; t++)
-        for (int r = 0; r < RINGS; r++) { /* equal shares, weighted by the cosine */
-            const double aside = sqrt((r + .5) / RINGS), turn = (t + .37) * 2 * acos(-1) / TURNS;
-            const double along[3] = {aside * cos(turn), sqrt(1 - aside * aside), aside * sin(turn)};
-            bool met = false;
-            for (int i = 0; i < model->count; i++) met |= meets_box(&model->boxes[i], from, along);
-            seen += !met;
-        }
-    return seen / (double)(TURNS * RINGS);
+    for (int i = 0; i < model->count; i++) targets[i] = aim(&model->boxes[i], from);
+    for (int r = 0; r < RAYS; r++) {
+        bool met = false;
+        for (int i = 0; i < model->count && !met; i++) met = meets(&targets[i], rays[r]);
+        seen += !met;
+    }
+    return seen / (double)RAYS;
 }
 
 /* Whether a point of the floor is inside of what is thinner than a texel: nobody sees it. */
@@ -302,7 +328,7 @@ static bool is_in_wall(const struct model *model, double x, double z) {
         const struct box *b = &model->boxes[i];
         double at[3] = {x - (b->least[0] + b->most[0]) / 2, 0, z - (b->least[2] + b->most[2]) / 2};
         const double half[2] = {(b->most[0] - b->least[0]) / 2, (b->most[2] - b->least[2]) / 2};
-        turn_back(b, at);
+        turn_back(cos(b->turn_rad), sin(b->turn_rad), at);
         inside |= fmin(half[0], half[1]) < THIN && fabs(at[0]) <= half[0] && fabs(at[2]) <= half[1];
     }
     return inside;
