@@ -107,9 +107,8 @@ static bool parse_level(struct gn_kind_input *in, void *field) {
 }
 
 static bool parse_share(struct gn_kind_input *in, void *field) {
-    if (strcmp(in->text, "full") != 0) return parse_ev(in, field);
-    *(double *)field = 0;
-    return true;
+    if (strcmp(in->text, "full") == 0) return *(double *)field = 0, true;
+    return parse_ev(in, field);
 }
 
 static void print_number(const void *field, const struct gn_kind_output *to) {
