@@ -51,6 +51,7 @@ static const struct gn_plan *prepare_frame(struct bench *b, const struct entry *
     gn_view_pose(&stage->shown, b->settings,
                  b->settings->scene.time_ns + (int64_t)frame * GN_NS_PER_S / FPS);
     gn_bench_move_step(&b->move, &stage->pose, frame);
+    gn_stage_refine(stage, &stage->shown);
     return gn_view_plan(&stage->shown, stage->gl, b->warnings, err);
 }
 

@@ -55,6 +55,7 @@ static const struct gn_plan *build_plan(struct gn_inspect_time *time, struct gn_
     struct gn_view view = stage->shown;
     const int64_t now_ns = stage->settings->scene.time_ns;
     view.opts = *opts;
+    gn_stage_refine(stage, &view);
     gn_view_pose(&view, stage->settings, now_ns + GN_NS_PER_S / FPS);
     struct contents next =
         note_contents(gn_frame_build(time->builder, view.pose, &view.opts, NULL));

@@ -112,13 +112,13 @@ static bool is_hole(const void *context, const double attributes[3]) {
 static void draw_instance(struct counter *c, const struct gn_pass *pass, const struct gn_draw *draw,
                           const struct gn_instance *instance) {
     const struct gn_scene *scene = c->plan->scene;
-    const struct gn_geometry *geometry = &scene->geometries[draw->geometry];
+    const struct gn_corners corners_of = gn_draw_corners(scene, c->plan->detail, draw);
     const bool posed = c->plan->programs[draw->program].features & GN_FEATURES_POSED;
     const bool flat = c->plan->programs[draw->program].kind == GN_PROGRAM_FLAT;
     const float(*clip)[4] =
         pass->kind == GN_PASS_MAP && pass->map.point_count > 0 ? pass->map.points : pass->constants;
-    for (uint32_t i = 0; i < geometry->index_count; i += 3) {
-        const uint32_t *index = scene->buffers.indices + geometry->first_index + (size_t)i;
+    for (uint32_t i = 0; i < corners_of.count; i += 3) {
+        const uint32_t *index = corners_of.indices + i;
         struct gn_raster_vertex corners[3];
         for (int k = 0; k < 3; k++) {
             float p[3];

@@ -59,9 +59,9 @@ static double read_bytes(const struct gn_plan *plan, const struct gn_draw *draw,
 }
 
 static double vertex_bytes(const struct gn_plan *plan, const struct gn_draw *draw) {
-    const struct gn_geometry *g = &plan->scene->geometries[draw->geometry];
+    const struct gn_corners g = gn_draw_corners(plan->scene, plan->detail, draw);
     return draw->instance_count *
-           ((double)g->vertex_count * gn_scene_vertex_bytes(plan->scene) + 4.0 * g->index_count);
+           ((double)g.vertex_count * gn_scene_vertex_bytes(plan->scene) + 4.0 * g.count);
 }
 
 /* ---- passes ---- */
@@ -71,8 +71,8 @@ static uint64_t vertices_of(const struct gn_plan *plan, const struct gn_pass *pa
     const uint64_t points =
         pass->kind == GN_PASS_MAP && pass->map.point_count > 0 ? pass->map.point_count : 1;
     if (draw->geometry == GN_NO_GEOMETRY) return draw->vertex_count * points;
-    return (uint64_t)plan->scene->geometries[draw->geometry].vertex_count * draw->instance_count *
-           points;
+    return (uint64_t)gn_draw_corners(plan->scene, plan->detail, draw).vertex_count *
+           draw->instance_count * points;
 }
 
 static void add_draw(struct gn_frame_cost *cost, const struct gn_pass *pass,

@@ -156,9 +156,10 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
     enum gn_cull cull = m->double_sided ? s->cull : GN_CULL_BACK;
     if (s->casts) cull = s->backs ? GN_CULL_FRONT : caster_cull(frame->scene, pose, item, s->view);
     const bool occluded = frame->plan.occlusion.on && gn_item_is_occluded(frame->scene, what);
+    const uint8_t level = s->casts || !frame->plan.detail ? 0 : frame->items.levels.at[item];
     if (*open) { /* an instance of the last draw? */
         const struct gn_draw *last = &frame->draws.at[frame->draws.count - 1];
-        *open = last->mirrored == mirrored && last->cull == cull &&
+        *open = last->mirrored == mirrored && last->cull == cull && last->level == level &&
                 (s->casts || frame->items.occluded == occluded) &&
                 (s->casts || gn_material_has_opaque_texels(
                                  &frame->scene->materials[last->material]) == in_parts);
@@ -177,7 +178,8 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
                                                        .material = what->material,
                                                        .first_instance = frame->instances.count,
                                                        .cull = (uint8_t)cull,
-                                                       .mirrored = mirrored};
+                                                       .mirrored = mirrored,
+                                                       .level = level};
         frame->items.occluded = occluded;
         *open = true;
     }

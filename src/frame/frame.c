@@ -27,6 +27,7 @@ void gn_frame_destroy(struct gn_frame *frame) {
     free(frame->items.run.at);
     free(frame->items.sorted.at);
     free(frame->items.merged.at);
+    free(frame->items.levels.at);
     free(frame->passes.at);
     free(frame->notes.lights.at);
     for (int i = 0; i < GN_ALL_SHADOWS_MAX; i++)
@@ -167,8 +168,10 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     struct gn_plan *plan = &frame->plan;
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
-    *plan = (struct gn_plan){
-        .scene = frame->scene, .view = opts->number, .maps_bytes = opts->shadow.maps_bytes};
+    *plan = (struct gn_plan){.scene = frame->scene,
+                             .view = opts->number,
+                             .detail = opts->detail.of,
+                             .maps_bytes = opts->shadow.maps_bytes};
     plan->width_px = opts->output.width_px ? opts->output.width_px : 1280;
     plan->height_px = opts->output.height_px ? opts->output.height_px : 720;
     frame->camera = opts->view.light_plus_1
@@ -191,6 +194,7 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
     gn_frame_fit_shadows(frame, pose, opts, warnings);
     gn_frame_hold_maps(frame, opts);
     gn_frame_gather_points(frame, opts);
+    gn_frame_choose_levels(frame, pose, opts);
     set_picture_constants(frame, pose, opts);
     gn_frame_light_floor(frame, pose);
 #define X(name) gn_frame_add_##name(frame, pose, opts);

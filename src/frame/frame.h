@@ -75,6 +75,12 @@ struct gn_frame_occlusion_opts { /* ambient occlusion of what stays where it is,
     uint64_t id;               /* of their content, of all scenes; 0: NULL */
 };
 
+struct gn_frame_detail_opts {   /* levels of detail in place of whole meshes */
+    const struct gn_detail *of; /* of the scene; NULL: meshes are whole. Must stay as it is while
+                                   plans use it */
+    float px;                   /* error that is allowed, pixels; 0: 1 */
+};
+
 struct gn_frame_output_opts {     /* what the picture is drawn to: assigned whole */
     uint32_t width_px, height_px; /* 1280 x 720 */
     unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
@@ -96,6 +102,7 @@ struct gn_frame_opts {
     struct gn_frame_shadow_opts shadow;
     struct gn_frame_environment_opts environment;
     struct gn_frame_occlusion_opts occlusion;
+    struct gn_frame_detail_opts detail;
     struct gn_frame_view_opts view;
     struct gn_frame_debug_opts debug;
     struct gn_frame_output_opts output;

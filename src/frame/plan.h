@@ -11,6 +11,7 @@
 #include "frame/caps.h"
 #include "frame/feature.h"
 #include "frame/program.h"
+#include "scene/level.h"
 #include "scene/pose.h"
 #include "shadow/fit.h"
 #include "shadow/slide.h"
@@ -93,6 +94,7 @@ struct gn_draw {                  /* one instanced call */
     uint32_t first_instance, instance_count;
     uint8_t cull;  /* gn_cull */
     bool mirrored; /* front faces wind clockwise */
+    uint8_t level; /* of plan->detail, from 1; 0: the whole mesh */
     float depth_m; /* how far behind the near plane its instances end, on average; a picture is
                       drawn in this order */
 };
@@ -281,6 +283,7 @@ struct gn_plan {
         const int8_t (*texels)[4]; /* as gn_frame_occlusion_opts has them */
         uint64_t id;
     } occlusion;
+    const struct gn_detail *detail;      /* whose levels draws name; NULL: none does */
     const struct gn_material *materials; /* the scene's, or as clips make them */
     const float (*pose_texels)[4];       /* of the pose: as many as scene->deformation says */
     uint32_t pass_count, draw_count, instance_count, program_count, shadow_count, light_count;
@@ -291,6 +294,22 @@ struct gn_plan {
     float exposure;
 };
 
+/* What a draw of a geometry draws: so many corners from there on. */
+struct gn_corners {
+    const uint32_t *indices;
+    uint32_t count, vertex_count;
+};
+static inline struct gn_corners gn_draw_corners(const struct gn_scene *scene,
+                                                const struct gn_detail *detail,
+                                                const struct gn_draw *draw) {
+    const struct gn_geometry *whole = &scene->geometries[draw->geometry];
+    if (draw->level == 0)
+        return (struct gn_corners){scene->buffers.indices + whole->first_index, whole->index_count,
+                                   whole->vertex_count};
+    const struct gn_level *level = &detail->geometries[draw->geometry].at[draw->level - 1];
+    return (struct gn_corners){detail->indices + level->first_index, level->index_count,
+                               level->vertex_count};
+}
 /* What its shadows take on the GPU: maps, their pages, what they are filtered into. */
 uint64_t gn_plan_map_bytes(const struct gn_plan *plan);
 /* The plan as text: stable, readable, for diffs. */

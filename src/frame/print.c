@@ -195,9 +195,10 @@ static void print_pass(const struct gn_plan *plan, const struct gn_pass *pass, F
         fprintf(
             to,
             "    draw program %u, geometry %u (%u triangles) x %u, material %u '%s', cull %s%s\n",
-            draw->program, draw->geometry, plan->scene->geometries[draw->geometry].index_count / 3,
-            draw->instance_count, draw->material, plan->scene->materials[draw->material].name,
-            culls[draw->cull], draw->mirrored ? ", mirrored" : "");
+            draw->program, draw->geometry,
+            gn_draw_corners(plan->scene, plan->detail, draw).count / 3, draw->instance_count,
+            draw->material, plan->scene->materials[draw->material].name, culls[draw->cull],
+            draw->mirrored ? ", mirrored" : "");
     }
 }
 

@@ -117,11 +117,12 @@ struct gn_frame {
     struct {
         GN_LIST(struct gn_placed) blended, run, sorted;
         GN_LIST(struct gn_draw) merged; /* room to sort in */
-        bool occluded;                  /* by the scene's volume: what the open draw has */
-    } items;                            /* of the pass that is being built */
-    float (*constants)[4];              /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
-    float (*sets)[4];                   /* stencil.c's, likewise; NULL until there are any */
-    uint32_t camera;                    /* of the scene; after those its lights */
+        GN_LIST(uint8_t) levels; /* of detail, by the scene's items; none without plan.detail */
+        bool occluded;           /* by the scene's volume: what the open draw has */
+    } items;                     /* of the pass that is being built */
+    float (*constants)[4];       /* sets of GN_PASS_SIZE, see enum gn_frame_constants */
+    float (*sets)[4];            /* stencil.c's, likewise; NULL until there are any */
+    uint32_t camera;             /* of the scene; after those its lights */
     struct gn_eye eye;
     struct {
         uint32_t width_px, height_px; /* before it is turned */
@@ -362,6 +363,10 @@ struct gn_program_key gn_key_additive(const struct gn_frame *frame,
                                       const struct gn_program_key *lit,
                                       const struct gn_light_group *group,
                                       const struct gn_frame_opts *opts);
+
+/* detail.c: items.levels, and what their errors add to the bias of maps. After those are fitted. */
+void gn_frame_choose_levels(struct gn_frame *frame, const struct gn_pose *pose,
+                            const struct gn_frame_opts *opts);
 
 /* eye.c: clip_from_world of the camera, its position and their constants. */
 void gn_frame_eye(struct gn_frame *frame, const struct gn_pose *pose,

@@ -87,8 +87,7 @@ void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const stru
 void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                 uint64_t constants_hash, uint32_t first, uint32_t count) {
     struct gn_gl_program *program = gl->plan_programs.at[d->program];
-    const struct gn_geometry *geometry =
-        d->geometry == GN_NO_GEOMETRY ? NULL : &gl->scene.scene->geometries[d->geometry];
+    const bool geometry = d->geometry != GN_NO_GEOMETRY;
     gn_gl_use_program(gl, program->name);
     if (program->constants_hash != constants_hash && program->u_pass >= 0) {
         program->constants_hash = constants_hash;
@@ -112,7 +111,7 @@ void gn_gl_draw(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_dr
     gn_gl_set_cull(gl, geometry ? d->cull : GN_CULL_NONE, geometry && d->mirrored);
     gn_gl_vertices_bind(gl, program->attributes, d->first_instance);
     if (geometry) {
-        const size_t at = (geometry->first_index + first) * gl->scene.index_size;
+        const size_t at = (gn_gl_first_index(gl, d) + first) * gl->scene.index_size;
         GL(gl, DrawElementsInstanced)
         (GL_TRIANGLES, (GLsizei)count, gl->scene.index_type, (const void *)at,
          (GLsizei)d->instance_count);

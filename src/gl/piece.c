@@ -47,9 +47,10 @@ static double pixels_of(const struct gn_gl *gl, const struct gn_pass *pass,
     const double target_px = (double)pass->target.width_px * pass->target.height_px;
     if (d->geometry == GN_NO_GEOMETRY) return target_px;
     const struct gn_geometry *g = &gl->scene.scene->geometries[d->geometry];
+    const double corners = gn_draw_corners(gl->scene.scene, gl->scene.detail, d).count;
     double layers = (double)fmaxf(fmaxf(g->layers[0], g->layers[1]), g->layers[2]);
-    if (layers == 0) layers = g->index_count / 3.0; /* posed ones may have an area */
-    return layers * target_px + CORNER_PX * g->index_count;
+    if (layers == 0) layers = corners / 3; /* posed ones may have an area */
+    return layers * target_px + CORNER_PX * corners;
 }
 
 static bool end_piece(struct gn_gl *gl, int pace, struct gn_err *err) {
@@ -78,7 +79,7 @@ bool gn_gl_draw_in_pieces(struct gn_gl *gl, const struct gn_pass *pass, const st
     const double each_px = p->pause ? pixels_of(gl, pass, d) : 0;
     const uint32_t corners = d->geometry == GN_NO_GEOMETRY
                                  ? d->vertex_count
-                                 : gl->scene.scene->geometries[d->geometry].index_count;
+                                 : gn_draw_corners(gl->scene.scene, gl->scene.detail, d).count;
     struct gn_draw part = *d;
     for (uint32_t i = 0; i < d->instance_count; i += part.instance_count) {
         const double room = p->pause ? (1 - p->used) * p->most_px[pace] / each_px : INFINITY;

@@ -200,6 +200,7 @@ bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, st
     }
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     gn_gl_pose_upload(gl, plan);
+    gn_gl_detail_upload(gl, plan);
     gn_gl_materials_update(gl, plan);
     gn_gl_pieces_begin(gl, plan->scene);
     bool ok = true;
@@ -250,6 +251,7 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
     p->constants_hash = ~UINT64_C(0); /* forces an upload now and at the next frame */
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     gn_gl_pose_upload(gl, plan);
+    gn_gl_detail_upload(gl, plan);
     gn_gl_materials_update(gl, plan);
     for (uint32_t i = 0; i < plan->pass_count; i++) {
         const struct gn_pass *pass = &plan->passes[i];

@@ -79,6 +79,8 @@ struct gn_gl_scene {
     const struct gn_scene *scene;
     struct gn_gl_upload upload;
     GLuint positions, attributes, indices;
+    const struct gn_detail *detail; /* of the plan that runs: its indices follow the scene's */
+    uint64_t detail_id;             /* whose are there; 0: none */
     GLenum index_type;
     size_t index_size;
     GLsizei attribute_stride;
@@ -126,6 +128,10 @@ bool gn_gl_deltas_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_deformation_finish(struct gn_gl *gl);
 /* Uploads the plan's texels of the pose if they changed, and binds what vertex shaders read. */
 void gn_gl_pose_upload(struct gn_gl *gl, const struct gn_plan *plan);
+/* The same for the indices of its levels of detail. */
+void gn_gl_detail_upload(struct gn_gl *gl, const struct gn_plan *plan);
+/* Of a draw of a geometry, in the buffer of indices. */
+uint32_t gn_gl_first_index(const struct gn_gl *gl, const struct gn_draw *draw);
 /* The same for the uniforms of materials that clips move. */
 void gn_gl_materials_update(struct gn_gl *gl, const struct gn_plan *plan);
 

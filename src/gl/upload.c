@@ -96,6 +96,20 @@ static bool send_attributes(struct gn_gl *gl, size_t bytes) {
     return end == all;
 }
 
+/* Into the buffer that is bound, from index `at` on. */
+static void put_indices(struct gn_gl *gl, const uint32_t *indices, uint32_t count, uint32_t at) {
+    const size_t each = gl->scene.index_size;
+    if (each == sizeof *indices && count > 0) GL(gl, BufferSubData)
+    (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(at * each), (GLsizeiptr)(count * each), indices);
+    for (uint32_t i = 0; each != sizeof *indices && i < count; i += PIECE) {
+        uint16_t narrow[PIECE];
+        const uint32_t n = count - i < PIECE ? count - i : PIECE;
+        for (uint32_t k = 0; k < n; k++) narrow[k] = (uint16_t)indices[i + k];
+        GL(gl, BufferSubData)
+        (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)((at + i) * each), (GLsizeiptr)(n * each), narrow);
+    }
+}
+
 static bool send_indices(struct gn_gl *gl, size_t bytes) {
     struct gn_gl_scene *s = &gl->scene;
     const uint32_t all = s->scene->buffers.index_count, first = s->upload.first;
@@ -106,21 +120,35 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
     if (first == 0)
         s->indices = make_buffer(gl, GL_ELEMENT_ARRAY_BUFFER, NULL, all * s->index_size);
     GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
-    const uint32_t *indices = s->scene->buffers.indices;
-    const uint32_t end = first + portion(bytes, s->index_size, all - first);
-    if (wide && end > first) GL(gl, BufferSubData)
-    (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * s->index_size),
-     (GLsizeiptr)((end - first) * s->index_size), indices + first);
-    for (uint32_t at = first; !wide && at < end; at += PIECE) {
-        uint16_t narrow[PIECE];
-        const uint32_t n = end - at < PIECE ? end - at : PIECE;
-        for (uint32_t i = 0; i < n; i++) narrow[i] = (uint16_t)indices[at + i];
-        GL(gl, BufferSubData)
-        (GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(at * sizeof *narrow), (GLsizeiptr)(n * sizeof *narrow),
-         narrow);
-    }
-    s->upload.first = end;
+    const uint32_t count = portion(bytes, s->index_size, all - first);
+    put_indices(gl, s->scene->buffers.indices + first, count, first);
+    s->upload.first = first + count;
     return s->upload.first == all;
+}
+
+/* The buffer keeps its name, which vertex arrays have. */
+void gn_gl_detail_upload(struct gn_gl *gl, const struct gn_plan *plan) {
+    struct gn_gl_scene *s = &gl->scene;
+    const struct gn_detail *detail = plan->detail;
+    const uint32_t whole = s->scene->buffers.index_count;
+    s->detail = detail;
+    if (!detail || detail->id == s->detail_id) return;
+    gn_gl_bind_vertex_array(gl, 0);
+    GL(gl, BindBuffer)(GL_ELEMENT_ARRAY_BUFFER, s->indices);
+    GL(gl, BufferData)
+    (GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((whole + detail->index_count) * s->index_size), NULL,
+     GL_STATIC_DRAW);
+    put_indices(gl, s->scene->buffers.indices, whole, 0);
+    put_indices(gl, detail->indices, detail->index_count, whole);
+    if (s->detail_id == 0) s->buffer_bytes += detail->index_count * s->index_size;
+    s->detail_id = detail->id;
+}
+
+uint32_t gn_gl_first_index(const struct gn_gl *gl, const struct gn_draw *draw) {
+    const struct gn_gl_scene *s = &gl->scene;
+    if (draw->level == 0) return s->scene->geometries[draw->geometry].first_index;
+    return s->scene->buffers.index_count +
+           s->detail->geometries[draw->geometry].at[draw->level - 1].first_index;
 }
 
 static void forget_programs(struct gn_gl *gl) {

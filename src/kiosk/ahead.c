@@ -183,8 +183,10 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     struct gn_show_staged *staged = &s->staged;
     struct gn_stage *stage = &s->stage;
     struct gn_loaded *loaded = staged->loaded;
-    const struct gn_loaded shown = {
-        .scene = stage->scene, .pose = stage->pose, .occluder = stage->occluder};
+    const struct gn_loaded shown = {.scene = stage->scene,
+                                    .pose = stage->pose,
+                                    .occluder = stage->occluder,
+                                    .detailer = stage->detailer};
     gn_truth_drop(s); /* these are of the other scene */
     gn_still_drop(s);
     gn_view_close(&s->split.view, s->stage.gl);
@@ -195,9 +197,11 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     stage->scene = loaded->scene;
     stage->pose = loaded->pose;
     stage->occluder = loaded->occluder;
+    stage->detailer = loaded->detailer;
     loaded->scene = shown.scene;
     loaded->pose = shown.pose;
     loaded->occluder = shown.occluder;
+    loaded->detailer = shown.detailer;
     gn_show_drop_staged(s);
     s->ahead.idle = false;
 }

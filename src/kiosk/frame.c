@@ -4,6 +4,7 @@
 #include "core/arena.h"
 #include "core/clock.h"
 #include "kiosk/private.h"
+#include "stage/detail.h"
 #include "stage/occlusion.h"
 
 #define ASK_NS  (10 * GN_NS_PER_S) /* the GPU is tested at most this often */
@@ -96,7 +97,7 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
     /* count allocations, except in the first frame and while a thread loads or makes something; GL
      * objects not where a mode begins either: its maps are made then */
     if (s->show->counts.frames++ > 0 && !gn_loader_is_busy(s->show->scenes.loader) &&
-        !gn_occluder_works(s->stage.occluder)) {
+        !gn_occluder_works(s->stage.occluder) && !gn_detailer_works(s->stage.detailer)) {
         s->show->counts.allocations += gn_alloc_count() - allocations;
         if (view.mode == s->drawn.mode && view.scene == s->drawn.scene)
             s->show->counts.objects += gn_gl_stats(s->stage.gl).objects_created - objects;

@@ -297,10 +297,12 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
                                         .scene = loaded->scene,
                                         .pose = loaded->pose,
                                         .occluder = loaded->occluder,
+                                        .detailer = loaded->detailer,
                                         .shown.pose = &s->screen.stage.pose};
     loaded->scene = NULL;
     loaded->pose = (struct gn_pose){0};
     loaded->occluder = NULL;
+    loaded->detailer = NULL;
     gn_show_drop_reload(s);
     if (ok && missing[0]) gn_show_report_error(s, GN_PROBLEM_CONFIG, missing);
     return ok;

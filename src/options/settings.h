@@ -120,6 +120,7 @@ struct gn_render_settings {
     int environment_show; /* enum gn_environment_show */
     int occlusion;        /* enum gn_occlusion_setting */
     int gather;           /* enum gn_gather_setting */
+    double detail_px;     /* NAN: automatic, 0: full */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
     int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */

@@ -51,6 +51,7 @@ enum gn_option_kind {
     GN_KIND_MODE,       /* struct gn_display_mode: WxH or WxH@HZ, each side min..max */
     GN_KIND_EV,         /* double, min..max, or NAN for "auto" */
     GN_KIND_LEVEL,      /* double, min..max, NAN for "auto", INFINITY for "none" */
+    GN_KIND_SHARE,      /* double, min..max, NAN for "auto", 0 for "full" */
     GN_KIND_CHOICE,     /* int: the value of a choice */
     GN_KIND_COLOR,      /* int: the value of a choice, below 0, or 0xRRGGBB of "#rrggbb", sRGB */
     GN_KIND_WORD,       /* const char *: the name of a choice; another room knows what it means */

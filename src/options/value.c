@@ -106,12 +106,24 @@ static bool parse_level(struct gn_kind_input *in, void *field) {
     return true;
 }
 
+static bool parse_share(struct gn_kind_input *in, void *field) {
+    if (strcmp(in->text, "full") == 0) return *(double *)field = 0, true;
+    return parse_ev(in, field);
+}
+
 static void print_number(const void *field, const struct gn_kind_output *to) {
     const double number = *(const double *)field;
     if (isfinite(number))
         gn_text_add(to->out, to->size, "%.9g", number);
     else
         gn_text_add(to->out, to->size, "%s", isnan(number) ? "auto" : "none");
+}
+
+static void print_share(const void *field, const struct gn_kind_output *to) {
+    if (*(const double *)field == 0)
+        gn_text_add(to->out, to->size, "full");
+    else
+        print_number(field, to);
 }
 
 static bool parse_seconds(struct gn_kind_input *in, void *field) {
@@ -403,6 +415,7 @@ static const struct kind {
     [GN_KIND_MODE] = {sizeof(struct gn_display_mode), false, parse_mode, print_mode, .expected = "WxH or WxH@HZ, each side from %.0f to %.0f"},
     [GN_KIND_EV] = {sizeof(double), false, parse_ev, print_number, .expected = "auto or a number from %.0f to %.0f"},
     [GN_KIND_LEVEL] = {sizeof(double), false, parse_level, print_number, .expected = "auto, none or a number from %.0f to %.0f"},
+    [GN_KIND_SHARE] = {sizeof(double), false, parse_share, print_share, .expected = "auto, full or a number from %.0f to %.0f"},
     [GN_KIND_POINT] = {3 * sizeof(double), false, parse_point, print_point, .expected = "auto or three numbers X,Y,Z"},
     [GN_KIND_CHOICE] = {sizeof(int), false, parse_choice, print_choice, .expect = expect_words},
     [GN_KIND_COLOR] = {sizeof(int), false, parse_color, print_color, .expect = expect_words},

@@ -7,6 +7,7 @@
 #include "core/arena.h"
 #include "core/thread.h"
 #include "core/worker.h"
+#include "stage/detail.h"
 #include "stage/occlusion.h"
 #include "stage/stage.h"
 
@@ -29,6 +30,7 @@ struct gn_loader {
 static void destroy_loaded(struct gn_loaded *loaded) {
     if (!loaded) return;
     gn_occluder_destroy(loaded->occluder);
+    gn_detailer_destroy(loaded->detailer);
     gn_pose_finish(&loaded->pose);
     gn_scene_destroy(loaded->scene);
     free(loaded);
@@ -52,6 +54,7 @@ static void load(struct gn_loader *loader) {
     if (l->scene) {
         gn_pose_init(&l->pose, l->scene, GN_POSE_DEFAULT);
         l->occluder = gn_occluder_create(l->scene);
+        l->detailer = gn_detailer_create(l->scene);
     }
     pthread_mutex_lock(&loader->worker.mutex);
     loader->state = IS_DONE;

@@ -12,6 +12,7 @@ struct gn_loaded {
     struct gn_scene *scene;       /* NULL: failed, see err */
     struct gn_pose pose;          /* of the scene, with its default clips, at 0 */
     struct gn_occluder *occluder; /* of the scene */
+    struct gn_detailer *detailer; /* likewise */
     struct gn_err err;
     struct gn_warnings warnings;
 };

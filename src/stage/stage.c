@@ -9,6 +9,7 @@
 #include "core/embedded.h"
 #include "core/srgb.h"
 #include "core/stop.h"
+#include "stage/detail.h"
 #include "stage/environment.h"
 #include "stage/import.h"
 #include "stage/lights.h"
@@ -334,8 +335,19 @@ void gn_stage_occlude(struct gn_stage *stage, struct gn_view *view) {
                      command != GN_COMMAND_SHOW && command != GN_COMMAND_AUTO);
 }
 
+void gn_stage_refine(struct gn_stage *stage, struct gn_view *view) {
+    const int command = stage->settings->run.command;
+    const double px = stage->settings->render.detail_px;
+    view->opts.detail = (struct gn_frame_detail_opts){.px = isnan(px) ? 0.0f : (float)px};
+    if (px == 0 || casts_rays(&view->opts.shadow)) return;
+    if (!stage->detailer) stage->detailer = gn_detailer_create(stage->scene);
+    view->opts.detail.of =
+        gn_detailer_take(stage->detailer, command != GN_COMMAND_SHOW && command != GN_COMMAND_AUTO);
+}
+
 void gn_stage_close(struct gn_stage *stage) {
     gn_stage_stop_gl(stage);
+    gn_detailer_destroy(stage->detailer);
     gn_occluder_destroy(stage->occluder);
     gn_display_close(&stage->display);
     gn_pose_finish(&stage->pose);

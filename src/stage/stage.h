@@ -11,6 +11,7 @@
 #include "stage/view.h"
 
 struct gn_occluder; /* stage/occlusion.h */
+struct gn_detailer; /* stage/detail.h */
 
 /* How the settings draw a scene. */
 struct gn_stage_look {
@@ -26,6 +27,7 @@ struct gn_stage {
     struct gn_display display;
     struct gn_gl *gl;
     struct gn_occluder *occluder;                   /* of that scene; NULL: none was asked for */
+    struct gn_detailer *detailer;                   /* likewise */
     struct gn_view shown;                           /* of that scene and pose */
     struct gn_stage_truth {                         /* of technique truth */
         void (*progress)(void *user, double share); /* the caller's, as in gn_cast_opts, or NULL */
@@ -43,6 +45,8 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
 /* Before a plan of the view is built: its occlusion. Where frames are shown it is made beside them,
  * else at once. */
 void gn_stage_occlude(struct gn_stage *stage, struct gn_view *view);
+/* The same of its levels of detail. Pictures of technique truth have whole meshes. */
+void gn_stage_refine(struct gn_stage *stage, struct gn_view *view);
 /* Checks what the options say about a scene (camera, animation, light, technique). */
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *settings,
                          const struct gn_scene *scene, struct gn_warnings *warnings,

@@ -83,6 +83,7 @@ const struct gn_plan *gn_view_draw(struct gn_view *view, struct gn_stage *stage,
                                    struct gn_warnings *warnings, struct gn_err *err) {
     gn_view_pose(view, stage->settings, time_ns);
     gn_stage_occlude(stage, view);
+    gn_stage_refine(stage, view);
     const struct gn_plan *plan = gn_view_plan(view, stage->gl, warnings, err);
     const bool ok =
         plan && gn_stage_cast(stage, view, plan, err) && gn_gl_run(stage->gl, plan, NULL, err);

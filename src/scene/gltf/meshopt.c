@@ -24,3 +24,15 @@ bool gn_meshopt_decode(const struct gn_meshopt_stream *stream, void *out, struct
     }
     return true;
 }
+
+size_t gn_meshopt_simplify(uint32_t *out, const uint32_t *corners, size_t count,
+                           const float *positions, size_t vertex_count, float *error_m) {
+    const size_t stride = 3 * sizeof(float);
+    const float scale = meshopt_simplifyScale(positions, vertex_count, stride);
+    float error = 0;
+    const size_t left =
+        meshopt_simplify(out, corners, count, positions, vertex_count, stride, 0,
+                         scale > 0 ? *error_m / scale : 0, meshopt_SimplifyLockBorder, &error);
+    *error_m = error * scale;
+    return left;
+}
