@@ -136,6 +136,7 @@ static bool work_on_others(struct gn_show_screen *s, int64_t until_ns) {
         gn_gl_keep_programs(s->stage.gl, plan_mode(s, &s->looks, &s->stage.shown, shown));
         drop_programs(s);
         s->ahead.keeps = true;
+        if (gn_loop_now_ns(s->show->loop) >= until_ns) return true;
     }
     for (int i = 1; i < s->show->modes.count; i++) {
         const int mode = (shown + i) % s->show->modes.count;
@@ -204,6 +205,7 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     loaded->detailer = shown.detailer;
     gn_show_drop_staged(s);
     s->ahead.idle = false;
+    s->ahead.alone = true; /* how long its frames take is not known yet */
 }
 
 static bool work_on_staged(struct gn_show_screen *s) {

@@ -32,9 +32,33 @@ static bool holds_point(const struct gn_box *box, const vec3 p) {
     return inside;
 }
 
+enum { NEAR = 4 }; /* of the planes; those of the sides come before it */
+
+static float polygon_least(const struct gn_polygon *polygon, const vec4 plane) {
+    float least = INFINITY;
+    for (int i = 0; i < polygon->count; i++)
+        least = fminf(least, glm_vec3_dot((float *)plane, (float *)polygon->at[i]) + plane[3]);
+    return least;
+}
+
+/* The least depth at which a face of the box is seen, if that is less than `most_m`. */
+static float nearest_face(const struct gn_eye *eye, const struct gn_box *box, float most_m) {
+    const float *near = eye->planes[NEAR];
+    float least_m = most_m;
+    vec3 corners[8];
+    gn_box_corners(box, GLM_MAT4_IDENTITY, corners);
+    for (int face = 0; face < 6; face++) {
+        struct gn_polygon part;
+        gn_box_face(corners, face, &part);
+        if (!(polygon_least(&part, near) < least_m)) continue;
+        for (int k = 0; k <= NEAR && part.count > 0; k++) gn_polygon_clip(&part, eye->planes[k]);
+        least_m = fminf(least_m, polygon_least(&part, near));
+    }
+    return least_m;
+}
+
 void gn_eye_depths(const struct gn_eye *eye, const vec3 start_ws, const struct gn_pose *pose,
                    float depths_m[2]) {
-    enum { NEAR = 4 }; /* of the planes; those of the sides come before it */
     const float *near = eye->planes[NEAR];
     depths_m[0] = INFINITY;
     depths_m[1] = 0.0f;
@@ -42,17 +66,12 @@ void gn_eye_depths(const struct gn_eye *eye, const vec3 start_ws, const struct g
         const struct gn_box *box = &pose->items[i].box_ws;
         if (!pose->items[i].visible || gn_planes_miss(eye->planes, NEAR + 1, box)) continue;
         depths_m[1] = fmaxf(depths_m[1], gn_box_most(near, box));
-        if (!(gn_box_least(near, box) < depths_m[0]) || depths_m[0] <= 0.0f) continue;
+        const float least_m = gn_box_least(near, box);
+        if (!(least_m < depths_m[0]) || depths_m[0] <= 0.0f) continue;
         if (holds_point(box, start_ws)) depths_m[0] = 0.0f;
-        vec3 corners[8];
-        gn_box_corners(box, GLM_MAT4_IDENTITY, corners);
-        for (int face = 0; face < 6; face++) {
-            struct gn_polygon part;
-            gn_box_face(corners, face, &part);
-            for (int k = 0; k <= NEAR; k++) gn_polygon_clip(&part, eye->planes[k]);
-            for (int k = 0; k < part.count; k++)
-                depths_m[0] = fminf(depths_m[0], glm_vec3_dot((float *)near, part.at[k]) + near[3]);
-        }
+        depths_m[0] = fminf(depths_m[0], gn_planes_hold(eye->planes, NEAR + 1, box)
+                                             ? least_m
+                                             : nearest_face(eye, box, depths_m[0]));
     }
 }
 
@@ -103,11 +122,19 @@ void gn_item_triangle(const struct gn_pose *pose, uint32_t item, uint32_t index,
 }
 
 void gn_polygon_clip(struct gn_polygon *polygon, const vec4 plane) {
-    struct gn_polygon kept = {0};
+    struct gn_polygon kept;
+    float over[GN_POLYGON_MAX];
+    bool whole = true;
     for (int i = 0; i < polygon->count; i++) {
-        float *a = polygon->at[i], *b = polygon->at[(i + 1) % polygon->count];
-        float da = a[0] * plane[0] + a[1] * plane[1] + a[2] * plane[2] + plane[3];
-        float db = b[0] * plane[0] + b[1] * plane[1] + b[2] * plane[2] + plane[3];
+        const float *p = polygon->at[i];
+        over[i] = p[0] * plane[0] + p[1] * plane[1] + p[2] * plane[2] + plane[3];
+        whole &= over[i] >= 0.0f;
+    }
+    if (whole) return;
+    kept.count = 0;
+    for (int i = 0; i < polygon->count; i++) {
+        const int next = (i + 1) % polygon->count;
+        float *a = polygon->at[i], *b = polygon->at[next], da = over[i], db = over[next];
         if (da >= 0.0f && kept.count < GN_POLYGON_MAX) glm_vec3_copy(a, kept.at[kept.count++]);
         if ((da < 0.0f) != (db < 0.0f) && kept.count < GN_POLYGON_MAX)
             glm_vec3_lerp(a, b, da / (da - db), kept.at[kept.count++]);

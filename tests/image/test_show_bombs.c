@@ -88,6 +88,55 @@ static void test_many_variants_of_many_nodes(void **state) {
     if (most_ms > MOST_MS) fail_msg("a step takes %.0f ms", most_ms);
 }
 
+enum { MANY = 100000 };
+
+/* Blended instances of one square, or as many primitives: each frame and each mode is a plan of
+ * all of them, and no step makes several. */
+static void show_many(bool of_one_node, double bound_ms) {
+    struct gn_maker maker;
+    char path[200];
+    gn_maker_init(&maker);
+    gn_maker_square(&maker);
+    gn_maker_add(&maker, "materials",
+                 "{'alphaMode':'BLEND','doubleSided':true,"
+                 "'pbrMetallicRoughness':{'baseColorFactor':[1,0.5,0.2,0.01]}}");
+    json_t *mesh = json_array_get(json_object_get(maker.root, "meshes"), 0),
+           *primitives = json_object_get(mesh, "primitives"),
+           *primitive = json_array_get(primitives, 0);
+    if (of_one_node) {
+        json_object_set_new(primitive, "material", json_integer(0));
+        gn_maker_add(&maker, "accessors", "{'componentType':5126,'count':100000,'type':'VEC3'}");
+        gn_maker_set(&maker, "nodes",
+                     "[{'mesh':0,'extensions':{'EXT_mesh_gpu_instancing':"
+                     "{'attributes':{'TRANSLATION':2}}}}]");
+        gn_maker_set(&maker, "extensionsUsed", "['EXT_mesh_gpu_instancing']");
+    }
+    for (int i = 1; !of_one_node && i < MANY; i++) json_array_append(primitives, primitive);
+    struct gn_made glb = gn_maker_glb(&maker);
+    gn_maker_finish(&maker);
+    const char *folder = help_folder();
+    snprintf(path, sizeof path, "%s/many.glb", folder);
+    put_file(path, &glb);
+    struct gn_show *show = begin_show();
+    const double most_ms = show_file(show, path);
+    const uint32_t items = show->screen.stage.scene->item_count;
+    gn_show_close(show);
+    help_remove(folder);
+    printf("%u items: %.0f ms at the most\n", items, most_ms);
+    assert_in_range(items, MANY, MANY + 1);
+    if (most_ms > bound_ms) fail_msg("a step takes %.0f ms", most_ms);
+}
+
+static void test_many_blended_instances(void **state) {
+    (void)state;
+    show_many(true, MOST_MS / 2.0);
+}
+
+static void test_many_primitives(void **state) {
+    (void)state;
+    show_many(false, MOST_MS);
+}
+
 static void test_bombs_one_after_another(void **state) {
     char path[200], kinds[200];
     double most_ms = 0;
@@ -113,6 +162,8 @@ static void test_bombs_one_after_another(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_many_variants_of_many_nodes),
+        cmocka_unit_test(test_many_blended_instances),
+        cmocka_unit_test(test_many_primitives),
         cmocka_unit_test(test_bombs_one_after_another),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
