@@ -34,7 +34,7 @@ END
 755 bin/gnomon-import $B/gnomon-import
 644 $share/man/man1/gnomon-import.1 board/gnomon-import.1
 END
-    for page in board/README.md board/use.md board/wall.md board/*/README.md assets/SCENES.md src/options/README.md \
+    for page in board/README.md board/use.md board/wall.md board/report.md board/*/README.md assets/SCENES.md src/options/README.md \
         src/import/README.md src/shadow/README.md src/cost/README.md; do
         echo "644 $share/doc/gnomon/$page $page"
         [ ! -f "${page%README.md}kiosk.ini" ] || echo "644 $share/doc/gnomon/${page%README.md}kiosk.ini ${page%README.md}kiosk.ini"

@@ -130,6 +130,8 @@ extern const struct gn_display_ops *const gn_displays[];
 bool gn_display_open(struct gn_display *display, const char *name, struct gn_warnings *warnings,
                      struct gn_err *err);
 gn_display_proc gn_display_get_proc(void *display, const char *name); /* for gn_gl_opts */
+/* Version and vendor of the EGL that made the current context, "1.5 Mesa Project"; "": none did. */
+void gn_display_describe_egl(struct gn_display *display, char *out, size_t size);
 void gn_display_close(struct gn_display *display); /* a zeroed one may be closed */
 
 /* Opens by name as a screen ("auto": KMS). Succeeds without card or monitor: see `lost`, `lit` and

@@ -203,6 +203,7 @@ struct gn_run_settings { /* of this run of the program: flags only */
     bool rollback;                     /* of take */
     int on_gpu;                        /* of inspect --for: 1 + enum gn_cost_gpu_id, or 0 */
     bool csv, move_lights, move_casters; /* of bench */
+    bool report, compare_reports;        /* of doctor */
     bool plan, json, self_test, stats, verbose, version, help, help_all;
 };
 struct gn_settings {
