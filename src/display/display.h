@@ -32,6 +32,7 @@ struct gn_screen_opts {               /* zero means the default written beside *
     unsigned rotate_deg; /* 0, 90, 180, 270, clockwise; added to the panel's orientation */
     unsigned max_fps;    /* the mode's rate */
     bool unencoded;      /* no sRGB encoding in the window's framebuffer */
+    bool locks_keys;     /* no key leads away from the text console that it was started on */
     bool legacy;         /* legacy page flips even if atomic is available */
     enum gn_screen_range {
         GN_RANGE_AUTO, /* as the driver and the monitor agree */

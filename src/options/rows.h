@@ -165,6 +165,8 @@ GN_OPTION(.name = "max-fps", .section = "display", .kind = GN_KIND_INT, .min = 1
           .help = "limit on the frame rate; without it, the display's refresh rate", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_fps))
 GN_OPTION(.name = "range", .section = "display", .kind = GN_KIND_CHOICE, .choices = ranges, .value = "WHAT", .fallback = "auto",
           .help = "levels of the signal to the monitor: as the driver chooses, full, or limited to 16 to 235, as televisions have them", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.range))
+GN_OPTION(.name = "console", .section = "display", .kind = GN_KIND_CHOICE, .choices = consoles, .value = "WHAT", .fallback = "open",
+          .help = "keyboard of the text console under the screen: open, or locked, so that no key leads away from it (board/museum.md)", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.console_locked))
 GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
           .help = "use legacy KMS instead of atomic", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
 GN_OPTION(.name = "touch-rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees", .fallback = "0",

@@ -154,7 +154,8 @@ struct gn_display_settings {
     int touch_rotate_deg;
     int pixel_shift_px; /* 0: none */
     bool legacy;
-    int range; /* enum gn_screen_range */
+    int range;          /* enum gn_screen_range */
+    int console_locked; /* 0, 1 */
 };
 struct gn_kiosk_settings {
     int idle;        /* enum gn_idle */
