@@ -16,7 +16,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet \
+.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpu check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet \
         lessons book readme board-table options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
@@ -28,6 +28,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #:                 check-board, check-arm64, check-gpiod2, check-kms, check-test_cone; with GN_FULL=1 what full runs of it
 #: make check-service
 #:                 the packages as a service, in a machine with systemd; check-deb: the packages themselves
+#: make check-gpu  the report of this machine's GPU (no display needed), which must pass, and its row of that table
 #: make check-gpus every program on the compilers of GPUs that are not here, and its cost
 #: make check-modelviewer
 #:                 colours against model-viewer in Chromium, by npm, on the models of ../shared/assets
@@ -43,7 +44,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make options-page
 #:                 the table of keys in src/options/README.md, from the table of options
 #: make board-table
-#:                 the table of costs in board/README.md, after the model of src/cost
+#:                 the tables in board/README.md: costs, after the model of src/cost; the reports of board/results
 #: make pictures   the pictures of README.md, and how far they are from rays
 #: make gallery    one scene with every technique and the truth, into assets/gallery
 #: make models     default pictures of the models of ../shared/assets against the same by rays;
@@ -77,7 +78,7 @@ dist:
 
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
 MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
-TABLED      := $(filter-out check-deb check-gpus check-modelviewer check-cycles check-tangents,$(filter check check-% accept full,$(GOALS)))
+TABLED      := $(filter-out check-deb check-gpu check-gpus check-modelviewer check-cycles check-tangents,$(filter check check-% accept full,$(GOALS)))
 IN_test     := $(TABLED) check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet book readme
 IN_board    := $(MACHINES)
 IN_board-arm64 := $(MACHINES)
@@ -185,11 +186,11 @@ IMPORT  := $(if $(IMPORT_C),$(B)/gnomon-import,no-import)
 OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
 SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
            $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
-LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plates thin far position form unseen lights)
+LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plates thin far position form unseen lights model)
 BOOK    := watch room carousel foliage product architecture studio window
 SELFTEST := $(foreach s,box ball fence lattice tilt stack lamp,$(addprefix $(O)/selftest/$s,.glb .truth))
 EMBED   := $(sort $(wildcard shaders_es/* shaders_es/*/*)) $(filter assets/sundial.glb,$(SCENES)) \
-           $(SELFTEST) $(LESSONS) $(O)/studio.env $(O)/programs.cost board/README.md board/use.md board/wall.md assets/SCENES.md src/shadow/README.md
+           $(SELFTEST) $(LESSONS) $(O)/studio.env $(O)/programs.cost board/README.md board/use.md board/wall.md board/report.md assets/SCENES.md src/shadow/README.md
 EMBED   := $(foreach f,$(EMBED),$(if $(filter .glsl .vert .frag .glb .truth .env .cost .md,$(suffix $f)),$f))
 
 # not out of a library: another one's dlclose would be found first
@@ -365,7 +366,9 @@ check-tangents: $(B)/tests/tool_tangents
 options-page: $(O)/host/man
 	sh tests/options_page.sh $< > src/options/README.md.new && mv src/options/README.md.new src/options/README.md
 board-table: $(BIN)
-	sh board/cost_table.sh $< board/README.md > board/README.md.new && mv board/README.md.new board/README.md
+	for table in cost_table results; do sh board/$$table.sh $< board/README.md > board/README.md.new && mv board/README.md.new board/README.md || exit; done
+check-gpu: $(BIN)
+	GNOMON=$< BUILD=$(B) tests/gpu.sh
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
 pictures: $(B)/tests/tool_sheet $(BIN) assets/book/studio.glb

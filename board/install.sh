@@ -28,13 +28,16 @@ files() {
 644 $system/system/gnomon-take.service board/systemd/gnomon-take.service.in board/systemd/take-common.in
 644 $system/system/gnomon-take@.service board/systemd/gnomon-take@.service.in board/systemd/take-common.in
 755 lib/gnomon/take board/systemd/take.sh.in
+755 lib/gnomon/lock board/systemd/lock.sh.in
+644 $share/gnomon/locked/logind.conf board/systemd/locked/logind.conf
+644 $share/gnomon/locked/sysctl.conf board/systemd/locked/sysctl.conf
 644 lib/udev/rules.d/90-gnomon.rules board/systemd/udev.rules
 END
     [ -z "$IMPORT" ] || cat << END
 755 bin/gnomon-import $B/gnomon-import
 644 $share/man/man1/gnomon-import.1 board/gnomon-import.1
 END
-    for page in board/README.md board/use.md board/wall.md board/*/README.md assets/SCENES.md src/options/README.md \
+    for page in board/README.md board/use.md board/wall.md board/report.md board/museum.md board/*/README.md assets/SCENES.md src/options/README.md \
         src/import/README.md src/shadow/README.md src/cost/README.md; do
         echo "644 $share/doc/gnomon/$page $page"
         [ ! -f "${page%README.md}kiosk.ini" ] || echo "644 $share/doc/gnomon/${page%README.md}kiosk.ini ${page%README.md}kiosk.ini"
@@ -68,7 +71,7 @@ uninstall)
     done
     for folder in "$DESTDIR$PREFIX/$share"/doc/gnomon/board/* "$DESTDIR$PREFIX/$share"/doc/gnomon/board \
         "$DESTDIR$PREFIX/$share"/doc/gnomon/src/* "$DESTDIR$PREFIX/$share"/doc/gnomon/src \
-        "$DESTDIR$PREFIX/$share"/doc/gnomon/assets "$DESTDIR$PREFIX/$share"/doc/gnomon "$DESTDIR$PREFIX/$share"/gnomon "$DESTDIR$PREFIX"/lib/gnomon; do
+        "$DESTDIR$PREFIX/$share"/doc/gnomon/assets "$DESTDIR$PREFIX/$share"/doc/gnomon "$DESTDIR$PREFIX/$share"/gnomon/locked "$DESTDIR$PREFIX/$share"/gnomon "$DESTDIR$PREFIX"/lib/gnomon; do
         rmdir "$folder" 2> /dev/null || true
     done
     ;;

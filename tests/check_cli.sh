@@ -20,7 +20,7 @@ for words in 'help' 'help render' 'version' '-V'; do
 done
 grep -q '^gnomon [0-9]' "$folder/out" || complain '-V'
 expect 2 'did you mean render?' help rendr
-for topic in board=board/README.md exhibit=board/wall.md use=board/use.md scenes=assets/SCENES.md techniques=src/shadow/README.md; do
+for topic in board=board/README.md exhibit=board/wall.md use=board/use.md report=board/report.md scenes=assets/SCENES.md techniques=src/shadow/README.md; do
     expect 0 '' help "${topic%%=*}"
     cmp -s "$folder/out" "${topic#*=}" || complain "help ${topic%%=*} is not ${topic#*=}"
     "$gnomon" --help | grep -q "^  gnomon help ${topic%%=*} " || complain "--help does not name ${topic%%=*}"

@@ -60,6 +60,7 @@ cp assets/sundial.glb "$folder"
 # ---- what is generated, and the manuals ----------------------------------------------------------
 out=$(dirname "${BUILD:-build/release}")
 sh tests/options_page.sh "$out/host/man" | cmp - src/options/README.md || complain 'src/options/README.md is old: make options-page'
+sh board/results.sh "$gnomon" board/README.md | cmp - board/README.md || complain 'the results of board/README.md are old: make board-table'
 sh board/cost_table.sh "$gnomon" board/README.md | cmp - board/README.md || complain 'the costs of board/README.md are old: make board-table'
 for page in "$out/gnomon.1" "$out/gnomon.ini.5" board/gnomon-import.1; do
     [ -s "$page" ] || complain "no $page"

@@ -214,6 +214,26 @@ static bool measure_scene(struct bench *b, struct gn_err *err) {
     return ok;
 }
 
+static void finish_report(struct gn_bench_report *report) {
+    for (uint32_t k = 0; k < report->run_count; k++) {
+        free(report->runs[k].passes);
+        free(report->runs[k].time);
+        json_decref(report->runs[k].time_json);
+    }
+    free(report->runs);
+}
+
+json_t *gn_bench_measure(const struct gn_settings *settings, struct gn_warnings *warnings,
+                         struct gn_err *err) {
+    struct gn_bench_report report = {0};
+    char renderer[RENDERER];
+    struct bench b = {
+        .settings = settings, .warnings = warnings, .report = &report, .renderer = renderer};
+    json_t *object = measure_scene(&b, err) ? gn_bench_json(&report) : NULL;
+    finish_report(&report);
+    return object;
+}
+
 static bool print_reports(const struct gn_settings *o, const struct gn_bench_report *reports,
                           uint32_t count, struct gn_err *err) {
     if (o->run.json) return gn_bench_print_json(reports, count, stdout, err);
@@ -258,14 +278,7 @@ bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings
         ok = measure_scene(&b, err);
     }
     ok = ok && print_reports(o, reports, count, err);
-    for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t k = 0; k < reports[i].run_count; k++) {
-            free(reports[i].runs[k].passes);
-            free(reports[i].runs[k].time);
-            json_decref(reports[i].runs[k].time_json);
-        }
-        free(reports[i].runs);
-    }
+    for (uint32_t i = 0; i < count; i++) finish_report(&reports[i]);
     gn_memory_probe_close(&probe);
     return ok;
 }

@@ -91,7 +91,7 @@ static json_t *number_json(double value) {
     return gn_json_make_number(round(value * 1000.0) / 1000.0);
 }
 
-static json_t *report_json(const struct gn_bench_report *report) {
+json_t *gn_bench_json(const struct gn_bench_report *report) {
     char size[32];
     snprintf(size, sizeof size, "%ux%u", report->width_px, report->height_px);
     json_t *object = json_object(), *runs = json_array();
@@ -133,9 +133,9 @@ static json_t *report_json(const struct gn_bench_report *report) {
 
 bool gn_bench_print_json(const struct gn_bench_report *reports, uint32_t count, FILE *to,
                          struct gn_err *err) {
-    if (count == 1) return gn_json_print(report_json(reports), 9, to, err);
+    if (count == 1) return gn_json_print(gn_bench_json(reports), 9, to, err);
     json_t *scenes = json_array();
-    for (uint32_t i = 0; i < count; i++) json_array_append_new(scenes, report_json(&reports[i]));
+    for (uint32_t i = 0; i < count; i++) json_array_append_new(scenes, gn_bench_json(&reports[i]));
     return gn_json_print(json_pack("{so}", "scenes", scenes), 9, to, err);
 }
 

@@ -7,7 +7,9 @@
 #include <stdio.h>
 
 #include "core/err.h"
+#include "core/warn.h"
 #include "gl/gl.h"
+#include "options/settings.h"
 
 struct gn_bench_pass {
     char label[48]; /* of the plan; passes with the same label are added up */
@@ -52,6 +54,12 @@ void gn_bench_add_name(char *list, const char *name);
 
 /* Aligned, for people: one row a technique; the ratio is that of cpu_ms to the first row's. */
 void gn_bench_print(const struct gn_bench_report *report, FILE *to);
+/* What `gnomon bench` measures of the one scene of these settings, as an object of
+ * gn_bench_print_json(); start and memory, which are those of the process, are null. NULL with the
+ * reason. */
+json_t *gn_bench_measure(const struct gn_settings *settings, struct gn_warnings *warnings,
+                         struct gn_err *err);
+json_t *gn_bench_json(const struct gn_bench_report *report);
 /* One JSON object, the fields in the order of the contract; unknown values are null. Of several
  * scenes {"scenes": [..]}, such an object each. */
 bool gn_bench_print_json(const struct gn_bench_report *reports, uint32_t count, FILE *to,

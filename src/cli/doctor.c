@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/doctor_report.h"
+#include "cli/report.h"
 #include "core/child.h"
 #include "core/clock.h"
 #include "display/display.h"
@@ -20,6 +21,7 @@ struct answer { /* what it finds, in shared memory */
     bool opens;
     struct gn_err err; /* of opening, or of the self-test */
     struct gn_caps caps;
+    char egl[96];
     struct gn_selftest self_test;
     bool self_tested;
 };
@@ -41,6 +43,7 @@ static void try_backend(void *shared, const void *argument) {
     struct gn_gl *gl = gn_gl_create(&opts, NULL, &answer->err);
     answer->opens = gl;
     if (gl) answer->caps = *gn_gl_caps(gl);
+    if (gl) gn_display_describe_egl(&display, answer->egl, sizeof answer->egl);
     if (gl && attempt->self_test)
         answer->self_tested = gn_selftest_run(&answer->self_test, gl, &answer->err);
     gn_gl_destroy(gl);
@@ -95,6 +98,7 @@ static bool check_backends(struct gn_doctor_report *report, const struct gn_sett
         const bool ended = gn_child_run(&child, answer, &end);
         b->opens = ended && answer->opens;
         b->caps = answer->caps;
+        memcpy(b->egl, answer->egl, sizeof b->egl);
         const char *why = ended ? answer->err.text : end.text;
         char prefix[64]; /* the report names the backend already */
         snprintf(prefix, sizeof prefix, "backend %s: ", b->name);
@@ -183,18 +187,26 @@ bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warning
                    struct gn_err *err) {
     (void)warnings;
     const struct gn_settings *settings = options->settings;
+    const bool sends = settings->run.report;
     struct gn_doctor_report report;
+    if (settings->run.compare_reports)
+        return gn_report_compare(options->words, options->word_count, stdout, err);
+    if (settings->run.out && !sends)
+        return gn_fail_usage(err, "doctor: -o is the file of --report: add --report");
     struct answer *answer = gn_child_share(sizeof *answer, err);
     if (!answer) return false;
     bool ok = gn_doctor_look(&report, settings, err);
     if (ok) {
         gn_doctor_diagnose(&report);
-        if (settings->run.self_test && report.chosen >= 0) self_test(&report, settings, answer);
-        if (settings->run.json)
+        if ((settings->run.self_test || sends) && report.chosen >= 0)
+            self_test(&report, settings, answer);
+        if (sends)
+            ok = gn_report_write(&report, settings, err);
+        else if (settings->run.json)
             ok = gn_doctor_print_json(&report, stdout, err);
         else
             gn_doctor_print(&report, stdout);
-        ok = ok && judge_report(&report, settings, answer, err);
+        ok = ok && (sends || judge_report(&report, settings, answer, err));
         gn_input_list_finish(&report.input);
     }
     gn_child_unshare(answer, sizeof *answer);

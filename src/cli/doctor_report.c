@@ -168,11 +168,12 @@ static json_t *gpu_json(const struct gn_doctor_backend *b) {
         if (gn_techniques[i].file)
             json_object_set_new(chosen, gn_techniques[i].name,
                                 json_string(chosen_name(caps, (enum gn_technique)i)));
-    return json_pack("{ss so so so sb si si so so so so}", "backend", b->name, "vendor",
+    return json_pack("{ss so so so so sb si si so so so so}", "backend", b->name, "vendor",
                      text_json(caps->vendor), "renderer", text_json(caps->renderer), "gles",
-                     text_json(caps->version), "software", caps->software, "max_texture_px",
-                     caps->max_texture_px, "texture_units", caps->max_texture_units, "proved",
-                     proved, "not_proved", not_proved, "map_formats", formats, "auto", chosen);
+                     text_json(caps->version), "egl", text_json(b->egl), "software", caps->software,
+                     "max_texture_px", caps->max_texture_px, "texture_units",
+                     caps->max_texture_units, "proved", proved, "not_proved", not_proved,
+                     "map_formats", formats, "auto", chosen);
 }
 
 static json_t *devices_json(const struct gn_doctor_report *report, bool gpio) {
@@ -206,35 +207,36 @@ static json_t *health_json(const struct gn_health *h) {
     return all;
 }
 
-bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err) {
+json_t *gn_doctor_json(const struct gn_doctor_report *report) {
     const struct gn_machine *m = &report->machine;
     const bool draws = report->chosen >= 0;
     json_t *groups = json_array(), *backends = json_array(), *connectors = json_array();
     char limits[400];
     gn_scene_limits_print(NULL, limits, sizeof limits);
     for (int i = 0; i < m->group_count; i++) json_array_append_new(groups, text_json(m->groups[i]));
-    json_t *machine = json_pack(
-        "{so so so so si sI sI sI so ss so so}", "model", text_json(m->model), "system",
-        text_json(m->system), "kernel", text_json(m->kernel), "arch", text_json(m->arch), "cpus",
-        m->cpus, "memory_mb", (json_int_t)m->memory_mb, "memory_free_mb", (json_int_t)m->free_mb,
-        "cma_mb", (json_int_t)m->cma_mb, "health", health_json(&report->health), "limits", limits,
-        "user", text_json(m->user), "groups", groups);
+    json_t *machine =
+        json_pack("{so so so so so si sI sI sI so ss so so}", "model", text_json(m->model), "cpu",
+                  text_json(m->cpu), "system", text_json(m->system), "kernel", text_json(m->kernel),
+                  "arch", text_json(m->arch), "cpus", m->cpus, "memory_mb",
+                  (json_int_t)m->memory_mb, "memory_free_mb", (json_int_t)m->free_mb, "cma_mb",
+                  (json_int_t)m->cma_mb, "health", health_json(&report->health), "limits", limits,
+                  "user", text_json(m->user), "groups", groups);
     for (int i = 0; i < report->backend_count; i++) {
         const struct gn_doctor_backend *b = &report->backends[i];
         json_array_append_new(
-            backends,
-            json_pack("{ss so sb sb so so so so so}", "name", b->name, "what", text_json(b->what),
-                      "built", b->built, "opens", b->opens, "why", text_json(b->why), "vendor",
-                      text_json(b->caps.vendor), "renderer", text_json(b->caps.renderer), "gles",
-                      text_json(b->caps.version), "software",
-                      b->opens ? json_boolean(b->caps.software) : json_null()));
+            backends, json_pack("{ss so sb sb so so so so so so}", "name", b->name, "what",
+                                text_json(b->what), "built", b->built, "opens", b->opens, "why",
+                                text_json(b->why), "vendor", text_json(b->caps.vendor), "renderer",
+                                text_json(b->caps.renderer), "gles", text_json(b->caps.version),
+                                "egl", text_json(b->egl), "software",
+                                b->opens ? json_boolean(b->caps.software) : json_null()));
     }
     for (int i = 0; i < m->connector_count; i++) {
         const struct gn_connector *c = &m->connectors[i];
         json_array_append_new(connectors,
-                              json_pack("{so so so so}", "name", text_json(c->name), "status",
+                              json_pack("{so so so so so}", "name", text_json(c->name), "status",
                                         text_json(c->status), "mode", text_json(c->mode), "modes",
-                                        text_json(c->modes)));
+                                        text_json(c->modes), "monitor", text_json(c->monitor)));
     }
     json_t *all = json_pack("{ss sb so so so so so so so so}", "version", GN_VERSION, "can_draw",
                             draws, "machine", machine, "backends", backends, "gpu",
@@ -244,5 +246,9 @@ bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struc
                             "problems", gn_problem_json(&report->problems));
     if (all && report->self_test)
         json_object_set_new(all, "self_test", gn_selftest_json(report->self_test));
-    return gn_json_print(all, 7, to, err);
+    return all;
+}
+
+bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err) {
+    return gn_json_print(gn_doctor_json(report), 7, to, err);
 }

@@ -2,6 +2,7 @@
 #ifndef GN_CLI_DOCTOR_REPORT_H
 #define GN_CLI_DOCTOR_REPORT_H
 
+#include <jansson.h>
 #include <stdio.h>
 
 #include "cli/machine.h"
@@ -21,6 +22,7 @@ struct gn_doctor_backend {
     bool is_window, is_console; /* as in struct gn_display_ops */
     char why[320];              /* it does not open */
     struct gn_caps caps;        /* it opens */
+    char egl[96];               /* version and vendor of its EGL; "" without one */
 };
 struct gn_doctor_report {
     struct gn_machine machine;
@@ -51,16 +53,18 @@ void gn_doctor_diagnose_devices(struct gn_doctor_report *report, enum gn_device_
 void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
 /* One object:
  * version, can_draw (bool),
- * machine {model|null, system, kernel, arch, cpus, memory_mb, memory_free_mb, cma_mb, health [what
- * it suffers from: undervoltage, throttled, out of CMA], limits, user, groups [name]}, backends
+ * machine {model|null, cpu|null, system, kernel, arch, cpus, memory_mb, memory_free_mb, cma_mb,
+ * health [what it suffers from: undervoltage, throttled, out of CMA], limits, user, groups [name]},
+ * backends
  * [{name, what|null, built, opens, why|null, vendor|null, renderer|null, gles|null,
- * software|null}], gpu null or {backend, vendor, renderer, gles, software, max_texture_px,
- * texture_units, proved [name], not_proved [{name, instead}], map_formats [name], auto {technique:
- * map format}}, cards [{path, kind (card, render), driver|null, group, readable, writable,
- * holder|null}], connectors [{name, status, mode|null, modes|null}], gpio [{path, device|null,
- * group, readable, writable, label|null, lines null or [{name|null, used, consumer|null}] by
- * number}], input {gpio_library|null, devices, devices_denied}, problems [{what, cure}], self_test:
- * see selftest.h; absent if not asked for. */
+ * egl|null, software|null}], gpu null or {backend, vendor, renderer, gles, egl|null, software,
+ * max_texture_px, texture_units, proved [name], not_proved [{name, instead}], map_formats [name],
+ * auto {technique: map format}}, cards [{path, kind (card, render), driver|null, group, readable,
+ * writable, holder|null}], connectors [{name, status, mode|null, modes|null, monitor|null}], gpio
+ * [{path, device|null, group, readable, writable, label|null, lines null or [{name|null, used,
+ * consumer|null}] by number}], input {gpio_library|null, devices, devices_denied}, problems [{what,
+ * cure}], self_test: see selftest.h; absent if not asked for. */
+json_t *gn_doctor_json(const struct gn_doctor_report *report);
 bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err);
 
 #endif

@@ -20,7 +20,7 @@ const struct gn_help_entry gn_help_exits[] = {
     {"0", "done; show and the window also after SIGTERM or SIGINT"},
     {"1", "runtime error: a file, a driver, a device or a scene"},
     {"2", "wrong usage, also a value outside its range"},
-    {"3", "compare: the pictures differ"},
+    {"3", "compare: the pictures differ; doctor --compare: the second report is worse"},
     {"70", "the display could not be recovered: restart the program"},
     {"130, 143", "another command was interrupted by SIGINT or SIGTERM"},
     {0},

@@ -14,6 +14,8 @@
 #include "core/memory.h"
 #include "core/text.h"
 
+enum { EDID_MAX = 128 * 256 };
+
 /* The first bytes of a file of the kernel, as text; "" if it cannot be read. */
 static const char *read_text(const char *root, const char *path, char *out, size_t size) {
     char full[PATH_MAX];
@@ -61,6 +63,22 @@ static void add_device(struct gn_machine *m, enum gn_device_kind kind, const cha
     gn_text_format(device->driver, sizeof device->driver, "%s", gn_file_name(target));
 }
 
+/* Manufacturer and product code of an EDID (VESA E-EDID 1.4, 3.4.1 and 3.4.2); the serial number,
+ * which follows them, is not looked at. */
+static void read_monitor(const char *path, char *out, size_t size) {
+    static const uint8_t header[8] = {0, 255, 255, 255, 255, 255, 255, 0};
+    struct gn_bytes bytes = {0};
+    uint8_t edid[12] = {0};
+    if (gn_file_read(path, EDID_MAX, &bytes, NULL) && bytes.size >= sizeof edid)
+        memcpy(edid, bytes.data, sizeof edid);
+    gn_bytes_finish(&bytes);
+    const unsigned vendor = (unsigned)edid[8] << 8 | edid[9];
+    if (memcmp(edid, header, sizeof header) != 0) return;
+    for (int shift = 10; shift >= 0; shift -= 5)
+        gn_text_add(out, size, "%c", '@' + (int)(vendor >> shift & 31));
+    gn_text_add(out, size, " %04x", (unsigned)edid[11] << 8 | edid[10]);
+}
+
 /* full: ".../card0-HDMI-A-1/status" */
 static void add_connector(struct gn_machine *m, const char *full, const char *root) {
     char folder[PATH_MAX], path[PATH_MAX + 8], text[4096];
@@ -70,6 +88,8 @@ static void add_connector(struct gn_machine *m, const char *full, const char *ro
     gn_text_format(connector->name, sizeof connector->name, "%s", gn_file_name(folder));
     copy_line(connector->status, sizeof connector->status,
               read_text(root, full + strlen(root), text, sizeof text));
+    snprintf(path, sizeof path, "%s/edid", folder);
+    read_monitor(path, connector->monitor, sizeof connector->monitor);
     snprintf(path, sizeof path, "%s/modes", folder);
     read_text(root, path + strlen(root), text, sizeof text);
     copy_line(connector->mode, sizeof connector->mode, text);
@@ -107,12 +127,25 @@ static void read_devices(struct gn_machine *m, const char *root) {
     }
 }
 
+static void read_model(struct gn_machine *m, const char *root) {
+    char vendor[64], product[64], text[4096];
+    copy_line(m->model, sizeof m->model,
+              read_text(root, "/proc/device-tree/model", text, sizeof text));
+    copy_line(vendor, sizeof vendor,
+              read_text(root, "/sys/class/dmi/id/sys_vendor", text, sizeof text));
+    copy_line(product, sizeof product,
+              read_text(root, "/sys/class/dmi/id/product_name", text, sizeof text));
+    if (!m->model[0])
+        gn_text_format(m->model, sizeof m->model, "%s%s%s", vendor, vendor[0] ? " " : "", product);
+    const char *cpu = strstr(read_text(root, "/proc/cpuinfo", text, sizeof text), "model name\t: ");
+    if (cpu) copy_line(m->cpu, sizeof m->cpu, strchr(cpu, ':') + 2);
+}
+
 void gn_machine_read(struct gn_machine *machine, const char *root) {
     char text[8192];
     struct utsname name;
     *machine = (struct gn_machine){0};
-    copy_line(machine->model, sizeof machine->model,
-              read_text(root, "/proc/device-tree/model", text, sizeof text));
+    read_model(machine, root);
     const char *pretty =
         strstr(read_text(root, "/etc/os-release", text, sizeof text), "PRETTY_NAME=\"");
     if (pretty)

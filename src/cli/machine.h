@@ -21,14 +21,16 @@ struct gn_device {
     char holder[64]; /* CARD: the process that has it open, "Xorg (pid 612)"; "": none found */
 };
 struct gn_connector {
-    char name[48];   /* "card0-HDMI-A-1" */
-    char status[16]; /* "connected", "disconnected", "unknown" */
-    char mode[24];   /* the preferred one, "1920x1080", or "" */
-    char modes[200]; /* all sizes, the preferred one first, a space between two; cut */
+    char name[48];    /* "card0-HDMI-A-1" */
+    char status[16];  /* "connected", "disconnected", "unknown" */
+    char mode[24];    /* the preferred one, "1920x1080", or "" */
+    char modes[200];  /* all sizes, the preferred one first, a space between two; cut */
+    char monitor[12]; /* vendor and product of its EDID, "DEL 40f1"; "" without one */
 };
 
 struct gn_machine {
-    char model[96];  /* of the board, by the device tree; "" where there is none */
+    char model[96];  /* of the board, by the device tree, else by DMI; "" without either */
+    char cpu[64];    /* "AMD EPYC 7543"; "" where the kernel names none, as on most ARM boards */
     char system[96]; /* "Debian GNU/Linux 12 (bookworm)" */
     char kernel[96], arch[24];
     int cpus;

@@ -11,7 +11,7 @@ enum gn_exit {
     GN_EXIT_OK = 0,
     GN_EXIT_RUNTIME = 1,  /* runtime error: bad file, driver, device or scene */
     GN_EXIT_USAGE = 2,    /* usage error: unknown option, value out of range */
-    GN_EXIT_DIFFER = 3,   /* compare: the pictures differ */
+    GN_EXIT_DIFFER = 3,   /* compare: the pictures differ; doctor --compare: worse */
     GN_EXIT_DISPLAY = 70, /* the display is lost: the supervisor restarts the program */
 };
 

@@ -32,6 +32,7 @@ struct gn_screen_opts {               /* zero means the default written beside *
     unsigned rotate_deg; /* 0, 90, 180, 270, clockwise; added to the panel's orientation */
     unsigned max_fps;    /* the mode's rate */
     bool unencoded;      /* no sRGB encoding in the window's framebuffer */
+    bool locks_keys;     /* no key leads away from the text console that it was started on */
     bool legacy;         /* legacy page flips even if atomic is available */
     enum gn_screen_range {
         GN_RANGE_AUTO, /* as the driver and the monitor agree */
@@ -130,6 +131,8 @@ extern const struct gn_display_ops *const gn_displays[];
 bool gn_display_open(struct gn_display *display, const char *name, struct gn_warnings *warnings,
                      struct gn_err *err);
 gn_display_proc gn_display_get_proc(void *display, const char *name); /* for gn_gl_opts */
+/* Version and vendor of the EGL that made the current context, "1.5 Mesa Project"; "": none did. */
+void gn_display_describe_egl(struct gn_display *display, char *out, size_t size);
 void gn_display_close(struct gn_display *display); /* a zeroed one may be closed */
 
 /* Opens by name as a screen ("auto": KMS). Succeeds without card or monitor: see `lost`, `lit` and

@@ -30,6 +30,7 @@ bool gn_show_open_display(struct gn_show_screen *s, struct gn_err *err) {
         .rotate_deg = (unsigned)o->display.rotate_deg,
         .max_fps = (unsigned)o->display.max_fps,
         .unencoded = !srgb,
+        .locks_keys = o->display.console_locked,
         .legacy = o->display.legacy,
         .range = (enum gn_screen_range)o->display.range,
     };

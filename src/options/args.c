@@ -185,7 +185,8 @@ static bool choose_command(struct args *args, struct gn_err *err) {
     gn_options_run_as(args->options, (enum gn_command)(row - gn_commands));
     if (bare && first && !strpbrk(first, "./:") && access(first, F_OK) != 0)
         return fail_command(first, false, err);
-    if (given > row->most) return fail_word(row, args->words[!bare + row->most], err);
+    const int most = row->words_with && !find_flag(args, row->words_with) ? 0 : row->most;
+    if (given > most) return fail_word(row, args->words[!bare + most], err);
     return given >= row->least || gn_fail_usage(err, "%s: expected %s", row->name, row->expects);
 }
 

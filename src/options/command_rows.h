@@ -21,9 +21,9 @@ GN_COMMAND(INSPECT, inspect, .name = "inspect", .usage = "inspect [OPTION..] [SC
 GN_COMMAND(FIT, fit, .name = "fit", .usage = "fit [OPTION..] [SCENE] --for GPU", .what = "chooses settings with which a board reaches a frame rate; with -o as a kiosk.ini",
            .examples = {"gnomon fit scene.glb --for pi4 --size 1920x1080 -o kiosk.ini", "gnomon fit scene.glb --for g52 --fps 30 --shadow cone"},
            .most = 1, .takes = "only one scene")
-GN_COMMAND(DOCTOR, doctor, .name = "doctor", .usage = "doctor [OPTION..]", .what = "tests this machine and prints how to fix problems",
-           .examples = {"gnomon doctor", "gnomon doctor --self-test"},
-           .takes = "it takes no scene")
+GN_COMMAND(DOCTOR, doctor, .name = "doctor", .usage = "doctor [OPTION..] [REPORT..]", .what = "tests this machine and prints how to fix problems; compares reports",
+           .examples = {"gnomon doctor --report -o machine.json", "gnomon doctor --compare before.json after.json"},
+           .words = GN_WORDS_FILES, .most = GN_SCENES_MAX, .takes = "it takes no scene, and with --compare at most 16 reports", .words_with = "compare")
 GN_COMMAND(CTL, ctl, .name = "ctl", .usage = "ctl [OPTION..] COMMAND [WORD..]", .what = "sends a command to a running kiosk",
            .examples = {"gnomon ctl mode Soft", "gnomon ctl set shadow pcss"},
            .words = GN_WORDS_REQUEST, .most = 1 + GN_CTL_WORDS_MAX, .takes = "quote what has spaces", .config = GN_CONFIG_OPTIONAL, .config_unless = "socket")

@@ -167,6 +167,8 @@ GN_OPTION(.name = "max-fps", .section = "display", .kind = GN_KIND_INT, .min = 1
           .help = "limit on the frame rate; without it, the display's refresh rate", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.max_fps))
 GN_OPTION(.name = "range", .section = "display", .kind = GN_KIND_CHOICE, .choices = ranges, .value = "WHAT", .fallback = "auto",
           .help = "levels of the signal to the monitor: as the driver chooses, full, or limited to 16 to 235, as televisions have them", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.range))
+GN_OPTION(.name = "console", .section = "display", .kind = GN_KIND_CHOICE, .choices = consoles, .value = "WHAT", .fallback = "open",
+          .help = "keyboard of the text console under the screen: open, or locked, so that no key leads away from it (board/museum.md)", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.console_locked))
 GN_OPTION(.name = "legacy", .section = "display", .kind = GN_KIND_FLAG,
           .help = "use legacy KMS instead of atomic", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(display.legacy))
 GN_OPTION(.name = "touch-rotate", .section = "display", .kind = GN_KIND_CHOICE, .choices = turns, .value = "DEG", .unit = "degrees", .fallback = "0",
@@ -228,7 +230,7 @@ GN_OPTION(.name = "here", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(run.mode))
 GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder; of fit: a kiosk.ini, over no other one", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE) | BIT(FIT), .offset = FIELD(run.out))
+          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder; of fit: a kiosk.ini, over no other one; of doctor: the file of --report", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE) | BIT(FIT) | BIT(DOCTOR), .offset = FIELD(run.out))
 GN_OPTION(.name = "simplify", .kind = GN_KIND_NUMBER, .min = 0.001, .max = 1, .value = "RATIO", .fallback = "1",
           .help = "keep this share of each mesh's triangles, or more where it would move by over 1/50 of its size", .commands = BIT(BAKE), .offset = FIELD(run.simplify))
 GN_OPTION(.name = "rollback", .kind = GN_KIND_FLAG,
@@ -277,6 +279,10 @@ GN_OPTION(.name = "move-casters", .kind = GN_KIND_FLAG,
           .help = "move what casts shadows a little in each frame", .commands = BIT(BENCH), .offset = FIELD(run.move_casters))
 GN_OPTION(.name = "self-test", .kind = GN_KIND_FLAG,
           .help = "draw small scenes with every technique and compare them with the truth", .commands = BIT(DOCTOR), .offset = FIELD(run.self_test))
+GN_OPTION(.name = "report", .kind = GN_KIND_FLAG,
+          .help = "write all that doctor finds, its self-test and a bench into a file to be sent (-o; gnomon-report.json), without names, paths, addresses and serial numbers", .commands = BIT(DOCTOR), .offset = FIELD(run.report))
+GN_OPTION(.name = "compare", .kind = GN_KIND_FLAG,
+          .help = "print the files of --report as a table and, of two, what differs; exit status 3 if the second is worse", .commands = BIT(DOCTOR), .offset = FIELD(run.compare_reports))
 GN_OPTION(.name = "stats", .kind = GN_KIND_FLAG,
           .help = "print a line a second: frames, what was missed, time to draw", .commands = BIT(SHOW), .offset = FIELD(run.stats))
 GN_OPTION(.name = "verbose", .letter = 'v', .kind = GN_KIND_FLAG,

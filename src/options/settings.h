@@ -155,7 +155,8 @@ struct gn_display_settings {
     int touch_rotate_deg;
     int pixel_shift_px; /* 0: none */
     bool legacy;
-    int range; /* enum gn_screen_range */
+    int range;          /* enum gn_screen_range */
+    int console_locked; /* 0, 1 */
 };
 struct gn_kiosk_settings {
     int idle;        /* enum gn_idle */
@@ -204,6 +205,7 @@ struct gn_run_settings { /* of this run of the program: flags only */
     bool rollback;                     /* of take */
     int on_gpu;                        /* of inspect --for: 1 + enum gn_cost_gpu_id, or 0 */
     bool csv, move_lights, move_casters; /* of bench */
+    bool report, compare_reports;        /* of doctor */
     bool plan, json, self_test, stats, verbose, version, help, help_all;
 };
 struct gn_settings {

@@ -108,6 +108,7 @@ static const struct gn_choice idles[] = {
     {"none", GN_IDLE_NONE}, {"first", GN_IDLE_FIRST}, {"next", GN_IDLE_NEXT}, {0}};
 static const struct gn_choice ranges[] = {
     {"auto", GN_RANGE_AUTO}, {"full", GN_RANGE_FULL}, {"limited", GN_RANGE_LIMITED}, {0}};
+static const struct gn_choice consoles[] = {{"open", 0}, {"locked", 1}, {0}};
 static const struct gn_choice turns[] = {{"0", 0}, {"90", 90}, {"180", 180}, {"270", 270}, {0}};
 
 const struct gn_command_row gn_commands[GN_COMMAND_COUNT] = {

@@ -35,6 +35,7 @@ struct gn_command_row {
     enum gn_words words;
     int least, most;             /* how many words */
     const char *expects, *takes; /* what fewer, and more of them, are told */
+    const char *words_with;      /* the option without which there are none; or NULL */
     enum gn_command_config config;
     const char *config_unless; /* with this option no file is searched; or NULL */
     bool lays_content;         /* that of [kiosk] content over the file */

@@ -88,6 +88,36 @@ static void test_cards_connectors_and_chips_are_found(void **state) {
     assert_string_equal(machine.connectors[0].status, "connected");
     assert_string_equal(machine.connectors[0].mode, "1920x1080");
     assert_string_equal(machine.connectors[0].modes, "1920x1080 1280x720");
+    assert_string_equal(machine.connectors[0].monitor, "");
+}
+
+/* Dell's U2415, whose serial number is behind the product code; and an EDID that is cut. */
+static void test_a_monitor_is_its_vendor_and_product(void **state) {
+    (void)state;
+    static const char edid[] =
+        "\\000\\377\\377\\377\\377\\377\\377\\000\\020\\254\\272\\240\\114\\123\\105\\122";
+    static const char *const folders[] = {"/sys/class/drm/card0-DP-1", "/sys/class/drm/card0-DP-2"};
+    char path[128], command[400];
+    for (int i = 0; i < 2; i++) {
+        snprintf(path, sizeof path, "%s/status", folders[i]);
+        put(path, "connected\n");
+        snprintf(command, sizeof command, "printf '%.*s' > '%s%s/edid'", i ? 40 : 99, edid, root,
+                 folders[i]);
+        assert_int_equal(system(command), 0);
+    }
+    gn_machine_read(&machine, root);
+    assert_string_equal(machine.connectors[0].monitor, "DEL a0ba");
+    assert_string_equal(machine.connectors[1].monitor, "");
+}
+
+static void test_a_pc_is_named_by_dmi(void **state) {
+    (void)state;
+    put("/sys/class/dmi/id/sys_vendor", "LENOVO\n");
+    put("/sys/class/dmi/id/product_name", "20W0\n");
+    put("/proc/cpuinfo", "processor\t: 0\nmodel name\t: AMD Ryzen 5\nflags\t: fpu\n");
+    gn_machine_read(&machine, root);
+    assert_string_equal(machine.model, "LENOVO 20W0");
+    assert_string_equal(machine.cpu, "AMD Ryzen 5");
 }
 
 /* ---- what doctor makes of it ---- */
@@ -148,6 +178,8 @@ int main(void) {
         TEST(test_a_bare_machine_has_nothing),
         TEST(test_a_board_is_read),
         TEST(test_cards_connectors_and_chips_are_found),
+        TEST(test_a_monitor_is_its_vendor_and_product),
+        TEST(test_a_pc_is_named_by_dmi),
         cmocka_unit_test(test_a_missing_group_is_the_cure),
         cmocka_unit_test(test_a_backend_brings_its_cure),
         cmocka_unit_test(test_the_cpu_is_not_taken_for_a_gpu),

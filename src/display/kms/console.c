@@ -23,6 +23,7 @@ static void restore_text_mode(void *user) {
     struct vt_mode automatic = {.mode = VT_AUTO};
     ioctl(c->tty, VT_SETMODE, &automatic);
     ioctl(c->tty, KDSETMODE, KD_TEXT);
+    ioctl(c->tty, KDSKBMODE, (long)c->keyboard);
 }
 
 /* Of several signals in one step, the last one counts. */
@@ -33,7 +34,16 @@ static void take_signal(void *user, int number) {
     if (c->entered) ioctl(c->tty, VT_RELDISP, VT_ACKACQ);
 }
 
-void gn_console_open(struct gn_console *c, struct gn_loop *loop) {
+/* One that was killed may have left it off. */
+static void take_keyboard(struct gn_console *c, bool locked) {
+    int mode = K_UNICODE;
+    if (ioctl(c->tty, KDGKBMODE, &mode) != 0 || mode == K_OFF) mode = K_UNICODE;
+    c->keyboard = mode;
+    const bool set = ioctl(c->tty, KDSKBMODE, (long)(locked ? K_OFF : mode)) == 0;
+    c->locks_keys = locked && set;
+}
+
+void gn_console_open(struct gn_console *c, struct gn_loop *loop, bool locked) {
     struct vt_mode mode = {.mode = VT_PROCESS, .relsig = LEAVE, .acqsig = ENTER};
     sigset_t both;
     /* the VT of standard input, else the controlling terminal */
@@ -45,6 +55,7 @@ void gn_console_open(struct gn_console *c, struct gn_loop *loop) {
     }
     *c = (struct gn_console){.tty = tty};
     if (tty < 0) return;
+    c->keyboard = K_UNICODE;
     sigemptyset(&both);
     sigaddset(&both, LEAVE);
     sigaddset(&both, ENTER);
@@ -55,6 +66,7 @@ void gn_console_open(struct gn_console *c, struct gn_loop *loop) {
     }
     gn_stop_set_restore(restore_text_mode, c);
     ioctl(tty, KDSETMODE, KD_GRAPHICS);
+    take_keyboard(c, locked);
 }
 
 void gn_console_let_go(struct gn_console *c) {

@@ -111,11 +111,13 @@ static bool kms_open(struct gn_display *display, struct gn_warnings *warnings, s
 
 static bool kms_open_screen(struct gn_display *display, const struct gn_screen_opts *opts,
                             int64_t now_ns, struct gn_warnings *warnings, struct gn_err *err) {
-    (void)warnings;
     struct kms_screen *s = create_screen(display, err);
     if (!s) return false;
     s->opts = *opts;
-    gn_console_open(&s->console, s->opts.loop);
+    gn_console_open(&s->console, s->opts.loop, opts->locks_keys);
+    if (opts->locks_keys && !s->console.locks_keys)
+        gn_warn(warnings, "[display] console = locked: there is no text console to lock; start "
+                          "gnomon on one, as gnomon.service does");
     s->uevents.fd = gn_uevent_open();
     s->timer.due_ns = GN_LOOP_NEVER;
     gn_loop_add_timer(s->opts.loop, &s->timer);
