@@ -14,10 +14,22 @@ struct row {
     struct gn_cost_words words;
     int kind_length; /* of the name's first word */
 };
+struct kind { /* the rows of a program's kind that know a figure */
+    const struct row **rows;
+    double weights[GN_COST_FIT_MAX + 1];
+    int count;
+};
+struct fitted {            /* of all rows, kept */
+    const struct row *row; /* one of the kind; NULL: unused */
+    int figure;
+    struct kind kind;
+};
+enum { FITTED_MAX = 64 };
 struct gn_cost_table {
     struct row *rows;
     int count, room;
     struct gn_cost_vocabulary vocabulary;
+    struct fitted *fitted; /* FITTED_MAX */
 };
 
 /* ---- reading ---- */
@@ -58,6 +70,7 @@ struct gn_cost_table *gn_cost_table_create(const char *text, const char *gpu) {
     const int column = column_of(text, gpu);
     if (column < 0) return NULL;
     struct gn_cost_table *table = gn_xalloc(1, sizeof *table);
+    table->fitted = gn_xalloc(FITTED_MAX, sizeof *table->fitted);
     for (const char *line = strchr(text, '\n'); line && line[1]; line = strchr(line + 1, '\n'))
         add_row(table, line + 1, column);
     return table;
@@ -66,6 +79,8 @@ struct gn_cost_table *gn_cost_table_create(const char *text, const char *gpu) {
 void gn_cost_table_destroy(struct gn_cost_table *table) {
     for (int i = 0; table && i < table->count; i++) free(table->rows[i].name);
     if (!table) return;
+    for (int i = 0; i < FITTED_MAX; i++) free(table->fitted[i].kind.rows);
+    free(table->fitted);
     free(table->rows);
     free(table->vocabulary.words);
     free(table);
@@ -115,12 +130,6 @@ static struct gn_cost_words words_to_fit(const struct gn_cost_table *table,
     return words;
 }
 
-struct kind { /* the rows of a program's kind that know a figure */
-    const struct row **rows;
-    double weights[GN_COST_FIT_MAX + 1];
-    int count;
-};
-
 static void fit_kind(const struct gn_cost_table *table, const char *name, int without, int figure,
                      struct kind *kind) {
     const size_t room = (size_t)table->count + 1;
@@ -142,6 +151,23 @@ static void fit_kind(const struct gn_cost_table *table, const char *name, int wi
         kind->weights[w] += usual_cost(table->vocabulary.words[w], figure);
     free(words);
     free(y);
+}
+
+/* The kept fit of a kind, made where it is not there yet; NULL: the table has no row of it. */
+static const struct kind *find_kind(const struct gn_cost_table *table, const char *name,
+                                    int figure) {
+    int i = 0, at = 0;
+    while (at < table->count && !is_of_kind(&table->rows[at], name)) at++;
+    if (at == table->count) return NULL;
+    struct fitted *f = table->fitted;
+    while (i < FITTED_MAX - 1 && f[i].row &&
+           (f[i].row != &table->rows[at] || f[i].figure != figure))
+        i++;
+    if (f[i].row == &table->rows[at] && f[i].figure == figure) return &f[i].kind;
+    free(f[i].kind.rows);
+    f[i] = (struct fitted){.row = &table->rows[at], .figure = figure};
+    fit_kind(table, name, -1, figure, &f[i].kind);
+    return &f[i].kind;
 }
 
 /* The figure of the row that differs least from the words, and what the difference costs. */
@@ -181,10 +207,13 @@ bool gn_cost_table_find(const struct gn_cost_table *table, const char *name, int
                                     .fetches_estimated = values[FETCHES] < 0};
     for (int figure = 0; figure < FIGURES; figure++) {
         if (values[figure] >= 0) continue;
-        struct kind kind = {0};
-        fit_kind(table, name, without, figure, &kind);
-        values[figure] = estimate(&kind, &words, table->vocabulary.count, figure, &nearest[figure]);
-        free(kind.rows);
+        struct kind own = {0};
+        const struct kind *kind = without < 0 ? find_kind(table, name, figure) : &own;
+        if (without >= 0) fit_kind(table, name, without, figure, &own);
+        if (kind)
+            values[figure] =
+                estimate(kind, &words, table->vocabulary.count, figure, &nearest[figure]);
+        free(own.rows);
     }
     out->fragment = values[FRAGMENT];
     out->vertex = values[VERTEX];
