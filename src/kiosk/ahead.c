@@ -199,6 +199,7 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     loaded->pose = shown.pose;
     loaded->occluder = shown.occluder;
     gn_show_drop_staged(s);
+    s->scaling = (struct gn_show_scaling){0};
     s->ahead.idle = false;
 }
 
