@@ -19,7 +19,7 @@ BEGIN {
     may["caption"] = may["display"] = may["input"] = may["take"] = "core"
     may["import"] = "core image" # a program of its own
     may["options"] = "core scene shadow frame cost display input take"
-    may["stage"] = "core image environment scene shadow truth frame gl display input caption options"
+    may["stage"] = "core image environment scene shadow truth frame gl display input caption options cost"
     may["kiosk"] = may["stage"] " stage take"
     may["cli"] = may["kiosk"] " kiosk bake cost"
     # which rooms may include <KEY..>

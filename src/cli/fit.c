@@ -179,7 +179,7 @@ static bool build_time(struct search *s, gn_fit_set taken, struct gn_inspect_tim
 static bool measure(void *user, gn_fit_set taken, double *ms, struct gn_err *err) {
     struct gn_inspect_time time = {0};
     const bool ok = build_time(user, taken, &time, NULL, err);
-    if (ok) *ms = time.cost.ms[GN_COST_EACH_FRAME] + time.cost.ms[GN_COST_CAMERA_MOVES];
+    if (ok) *ms = time.frame.cost.ms[GN_COST_EACH_FRAME] + time.frame.cost.ms[GN_COST_CAMERA_MOVES];
     gn_inspect_time_finish(&time);
     return ok;
 }
@@ -190,7 +190,7 @@ static bool choose(struct search *s, struct gn_warnings *warnings, struct gn_err
     const bool ok =
         put_best(f, s->stage.scene, &s->arena, err) && build_time(s, 0, &time, warnings, err);
     for (int i = 0; ok && i < FIRST; i++) add_step(f, &first_steps[i]);
-    if (ok) add_lights(f, &s->stage.pose, time.cost.plan);
+    if (ok) add_lights(f, &s->stage.pose, time.frame.cost.plan);
     for (int i = 0; ok && i < LAST; i++) add_step(f, &last_steps[i]);
     gn_inspect_time_finish(&time);
     f->search.measure = measure;

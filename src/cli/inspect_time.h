@@ -8,16 +8,10 @@
 
 #include "core/err.h"
 #include "core/warn.h"
-#include "cost/frame_cost.h"
-#include "stage/stage.h"
+#include "stage/time.h"
 
 struct gn_inspect_time {
-    struct gn_frame_cost cost;
-    struct gn_frame *builder;
-    struct gn_cost_table *table;
-    struct gn_raster_count *counts;
-    char (*names)[GN_PROGRAM_NAME];
-    enum gn_cost_when *when;
+    struct gn_stage_time frame;
     char advice[400]; /* what to change first */
 };
 

@@ -70,7 +70,7 @@ static void print_shares(const char *title, const struct gn_cost_share *shares, 
 }
 
 void gn_inspect_time_print(const struct gn_inspect_time *time, FILE *to) {
-    const struct gn_frame_cost *cost = &time->cost;
+    const struct gn_frame_cost *cost = &time->frame.cost;
     const struct gn_plan *plan = cost->plan;
     const double each = cost->ms[GN_COST_EACH_FRAME], moves = cost->ms[GN_COST_CAMERA_MOVES];
     fprintf(to, "\nTime on %s at %ux%u with %u samples, at least\n", cost->gpu->what,
@@ -137,7 +137,7 @@ static json_t *shares_json(const struct gn_cost_share *shares, uint32_t count) {
 }
 
 json_t *gn_inspect_time_json(const struct gn_inspect_time *time) {
-    const struct gn_frame_cost *cost = &time->cost;
+    const struct gn_frame_cost *cost = &time->frame.cost;
     const struct gn_plan *plan = cost->plan;
     const double each = cost->ms[GN_COST_EACH_FRAME];
     json_t *passes = json_array(), *programs = json_array();

@@ -30,6 +30,8 @@ static double target_bytes(const struct gn_plan *plan, const struct gn_pass *pas
     switch (pass->kind) {
     case GN_PASS_PICTURE:
         if (pass->target.kind == GN_TARGET_ENCODED) return area_of(pass) * (pixel + 4);
+        if (pass->picture.scales)
+            return 4.0 * (area_of(pass) + (double)plan->width_px * plan->height_px);
         if (pass->target.kind == GN_TARGET_MEAN) return area_of(pass) * 2 * pixel;
         return pass->picture.resolves ? area_of(pass) * pixel : 0;
     case GN_PASS_COPY: return area_of(pass) * 2 * texel_bytes(&pass->target);
@@ -223,6 +225,10 @@ void gn_frame_cost_build(struct gn_frame_cost *cost, const struct gn_plan *plan,
             add_draw(cost, pass, &plan->draws[pass->first_draw + k], &counts[pass->first_draw + k],
                      out);
         out->bytes += target_bytes(plan, pass);
+        if (pass->kind == GN_PASS_PICTURE && pass->picture.scales) { /* one texel, filtered */
+            out->pixels = out->lanes = (uint64_t)area_of(pass);
+            out->fetches = (double)out->lanes;
+        }
         bound_pass(gpu, out);
         cost->ms[when[i]] += out->ms;
         if (when[i] == GN_COST_EACH_FRAME) share_pass(cost, table, pass, out->ms, counts);

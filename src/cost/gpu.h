@@ -37,5 +37,8 @@ struct gn_cost_gpu {
     const char *source;
 };
 extern const struct gn_cost_gpu gn_cost_gpus[GN_COST_GPU_COUNT];
+/* The one that calls itself so (GL_RENDERER), if its figures are calibrated: those of V3D, which
+ * boards have in one size only. NULL: any other. */
+const struct gn_cost_gpu *gn_cost_gpu_of(const char *renderer);
 
 #endif

@@ -82,6 +82,10 @@ bool gn_display_begin(struct gn_display *d, int64_t now_ns, struct gn_err *err) 
     return screen_of(d)->begin(d, now_ns, err);
 }
 
+bool gn_display_scale(struct gn_display *d, uint32_t width_px, uint32_t height_px) {
+    return screen_of(d)->scale && screen_of(d)->scale(d, width_px, height_px);
+}
+
 bool gn_display_present(struct gn_display *d, int64_t now_ns, struct gn_err *err) {
     return screen_of(d)->present(d, now_ns, err);
 }

@@ -110,6 +110,8 @@ struct gn_screen_ops { /* see the functions of the same names */
     bool (*renew)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*begin)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
     bool (*present)(struct gn_display *display, int64_t now_ns, struct gn_err *err);
+    bool (*scale)(struct gn_display *display, uint32_t width_px,
+                  uint32_t height_px);                        /* NULL: it cannot */
     void (*lose)(struct gn_display *display, int64_t now_ns); /* NULL: unsupported */
     void (*blank)(struct gn_display *display, bool on, int64_t now_ns);
     bool (*show_message)(struct gn_display *display, const char *text,
@@ -150,6 +152,9 @@ bool gn_display_renew(struct gn_display *display, int64_t now_ns, struct gn_err 
 /* Makes the window's framebuffer GL's framebuffer 0. Call when may_draw; false with an empty err:
  * draw later. */
 bool gn_display_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err);
+/* Between begin and present: the frame fills only the lower left part of the framebuffer, of that
+ * size, which the display scales to the whole screen. False: it cannot; draw all of it. */
+bool gn_display_scale(struct gn_display *display, uint32_t width_px, uint32_t height_px);
 /* Submits the frame without waiting. Commits refused temporarily are retried. Fails as dispatch
  * does. */
 bool gn_display_present(struct gn_display *display, int64_t now_ns, struct gn_err *err);

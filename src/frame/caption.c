@@ -55,8 +55,8 @@ static void add_quads(struct gn_frame *frame, const struct gn_caption_run *run, 
 
 /* In a target that is blended as stored the share of light is exact on white, and close below. */
 static void add_dimming(struct gn_frame *frame, float share) {
-    const struct gn_caption_quad all = {.width = (int32_t)frame->picture.width_px,
-                                        .height = (int32_t)frame->picture.height_px,
+    const struct gn_caption_quad all = {.width = (int32_t)frame->picture.shown_width_px,
+                                        .height = (int32_t)frame->picture.shown_height_px,
                                         .ground = true};
     const float least = 1e-4f, light = 1.0f - share > least ? 1.0f - share : least;
     const bool encodes = frame->plan.encode_srgb;
@@ -78,32 +78,34 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
     if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
     if (opts->debug.aov != GN_AOV_COLOR) return;
     if (opts->cover.captions_later) gn_frame_program(frame, &key);
-    if (run &&
-        (run->width_px != frame->picture.width_px || run->height_px != frame->picture.height_px))
+    if (run && (run->width_px != frame->picture.shown_width_px ||
+                run->height_px != frame->picture.shown_height_px))
         run = NULL;
     const uint32_t first = frame->instances.count;
     struct bounds seen = visible_bounds(run);
     if (run) add_quads(frame, run, &seen, opts->view.shift_px);
     if (opts->cover.dimmed > 0.0f) {
         add_dimming(frame, opts->cover.dimmed);
-        seen = (struct bounds){.right = (int32_t)frame->picture.width_px,
-                               .bottom = (int32_t)frame->picture.height_px};
+        seen = (struct bounds){.right = (int32_t)frame->picture.shown_width_px,
+                               .bottom = (int32_t)frame->picture.shown_height_px};
     }
     if (seen.right <= seen.left) return;
     const struct gn_rect rect = {
-        (uint32_t)seen.left, frame->picture.height_px - (uint32_t)seen.bottom,
+        (uint32_t)seen.left, frame->picture.shown_height_px - (uint32_t)seen.bottom,
         (uint32_t)(seen.right - seen.left), (uint32_t)(seen.bottom - seen.top)};
     struct gn_pass *pass = gn_frame_picture_pass(frame, "captions");
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_CAPTION);
     if (frame->plan.finishes) pass->target.kind = GN_TARGET_ENCODED;
-    pass->rect = gn_frame_turned_rect(frame, rect);
+    gn_frame_to_shown(frame, pass);
+    pass->rect = gn_frame_turned_rect(frame, frame->picture.shown_width_px,
+                                      frame->picture.shown_height_px, rect);
     pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;
     pass->picture.reads_atlas = run;
     pass->constants = c;
     pass->constant_count = CAPTION_SIZE;
-    c[CAPTION_PX][0] = 2.0f / (float)frame->picture.width_px;
-    c[CAPTION_PX][1] = 2.0f / (float)frame->picture.height_px;
+    c[CAPTION_PX][0] = 2.0f / (float)frame->picture.shown_width_px;
+    c[CAPTION_PX][1] = 2.0f / (float)frame->picture.shown_height_px;
     c[CAPTION_PX][2] = frame->picture.turn[0];
     c[CAPTION_PX][3] = frame->picture.turn[1];
     frame->plan.atlas = run ? run->atlas : NULL;

@@ -90,7 +90,11 @@ static const char *check_picture(const struct gn_plan *plan, const struct gn_pas
     const struct gn_pass_picture *p = &pass->picture;
     const bool clears = pass->clear.area != GN_CLEAR_NOTHING;
     REQUIRE(pass->target.kind == GN_TARGET_OUTPUT || pass->target.kind == GN_TARGET_ENCODED ||
-            pass->target.kind == GN_TARGET_MEAN);
+            pass->target.kind == GN_TARGET_MEAN || pass->target.kind == GN_TARGET_SCALED);
+    const bool is_shown = pass->target.kind == GN_TARGET_SCALED;
+    REQUIRE(pass->target.width_px == (is_shown ? plan->shown_width_px : plan->width_px));
+    REQUIRE(pass->target.height_px == (is_shown ? plan->shown_height_px : plan->height_px));
+    REQUIRE(!p->scales || (is_shown && pass->draw_count == 0));
     REQUIRE(p->mean_of <= GN_PLAN_VIEWS_MAX && p->mean_of != plan->view + 1);
     REQUIRE(pass->target.kind != GN_TARGET_MEAN || pass->target.index < 2);
     REQUIRE(!p->mean_of || (!pass->depth_write && !clears));
@@ -268,8 +272,15 @@ const char *gn_plan_check(const struct gn_plan *plan) {
         if (passes[i].kind == GN_PASS_PICTURE) REQUIRE(passes[i].picture.resolves == (i == last));
     REQUIRE(passes[0].clear.area != GN_CLEAR_NOTHING);
     REQUIRE(passes[plan->pass_count - 1].kind == GN_PASS_PICTURE);
-    REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_ENCODED) == plan->finishes);
-    REQUIRE((passes[plan->pass_count - 1].target.kind == GN_TARGET_MEAN) == plan->gathers);
+    const enum gn_target_kind end = passes[plan->pass_count - 1].target.kind;
+    REQUIRE((end == GN_TARGET_SCALED) == gn_plan_scales(plan));
+    REQUIRE((end == GN_TARGET_ENCODED) == (plan->finishes && !gn_plan_scales(plan)));
+    REQUIRE((end == GN_TARGET_MEAN) == plan->gathers);
+    for (uint32_t i = 1; i < plan->pass_count; i++) { /* scaled once, before anything else is */
+        const struct gn_pass *before = &passes[i - 1], *pass = &passes[i];
+        if (pass->kind == GN_PASS_PICTURE && pass->target.kind == GN_TARGET_SCALED)
+            REQUIRE(pass->picture.scales == (before->target.kind != GN_TARGET_SCALED));
+    }
     REQUIRE(!plan->gathers || (!plan->finishes && plan->msaa == 0));
     REQUIRE(!(plan->finishes || plan->gathers) || plan->output == GN_OUTPUT_FLOAT);
     REQUIRE(plan->tone > GN_TONE_AUTO && plan->tone < GN_TONE_COUNT);

@@ -125,8 +125,9 @@ void gn_frame_camera(const struct gn_pose *pose, const struct gn_frame_view_opts
 
 static void shift_scene(const struct gn_frame *frame, const struct gn_frame_view_opts *view,
                         mat4 clip_from_view) {
-    const float x_px = (float)view->shift_px[0] + view->aside_px[0],
-                y_px = (float)view->shift_px[1] + view->aside_px[1],
+    const float scale = frame->picture.scale,
+                x_px = scale * (float)view->shift_px[0] + view->aside_px[0],
+                y_px = scale * (float)view->shift_px[1] + view->aside_px[1],
                 x = 2.0f * x_px / (float)frame->picture.width_px,
                 y = 2.0f * y_px / (float)frame->picture.height_px;
     if (x == 0.0f && y == 0.0f) return;

@@ -162,6 +162,32 @@ static void set_picture_constants(struct gn_frame *frame, const struct gn_pose *
     }
 }
 
+static void choose_size(struct gn_plan *plan, const struct gn_frame_opts *opts) {
+    const float scale = opts->output.scale;
+    plan->width_px = plan->shown_width_px = opts->output.width_px ? opts->output.width_px : 1280;
+    plan->height_px = plan->shown_height_px = opts->output.height_px ? opts->output.height_px : 720;
+    if (scale <= 0.0f || scale >= 1.0f || opts->debug.aov != GN_AOV_COLOR) return;
+    plan->width_px = gn_frame_scaled_px(plan->width_px, scale);
+    plan->height_px = gn_frame_scaled_px(plan->height_px, scale);
+    /* a mean is scaled by whoever shows it */
+    if (opts->gather.part <= 0.0f && !opts->output.scaled_later) return;
+    plan->shown_width_px = plan->width_px;
+    plan->shown_height_px = plan->height_px;
+}
+
+/* Whatever is drawn after it is as large as the picture that is shown. */
+void gn_frame_add_scale(struct gn_frame *frame, const struct gn_pose *pose,
+                        const struct gn_frame_opts *opts) {
+    (void)pose, (void)opts;
+    if (!gn_plan_scales(&frame->plan)) return;
+    struct gn_pass *pass = gn_frame_picture_pass(frame, "scale");
+    gn_frame_to_shown(frame, pass);
+    pass->constants = gn_frame_constants(frame, GN_CONSTANTS_PICTURE);
+    pass->picture.scales = true;
+    pass->depth_write = false;
+    gn_frame_end_pass(frame);
+}
+
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
@@ -172,14 +198,17 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
                              .view = opts->number,
                              .detail = opts->detail.of,
                              .maps_bytes = opts->shadow.maps_bytes};
-    plan->width_px = opts->output.width_px ? opts->output.width_px : 1280;
-    plan->height_px = opts->output.height_px ? opts->output.height_px : 720;
+    choose_size(plan, opts);
     frame->camera = opts->view.light_plus_1
                         ? frame->scene->camera_count + opts->view.light_plus_1 - 1
                         : (uint32_t)opts->view.camera;
     const bool on_side = opts->output.turn_deg / 90 % 2;
     frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
     frame->picture.height_px = on_side ? plan->width_px : plan->height_px;
+    frame->picture.scale = (float)plan->width_px /
+                           (float)(opts->output.width_px ? opts->output.width_px : plan->width_px);
+    frame->picture.shown_width_px = on_side ? plan->shown_height_px : plan->shown_width_px;
+    frame->picture.shown_height_px = on_side ? plan->shown_width_px : plan->shown_height_px;
     memcpy(frame->picture.turn, turns[opts->output.turn_deg / 90 % 4], sizeof frame->picture.turn);
     gn_frame_learn_scene(frame);
     gn_frame_renew_notices(frame, opts);

@@ -85,6 +85,10 @@ struct gn_frame_output_opts {     /* what the picture is drawn to: assigned whol
     uint32_t width_px, height_px; /* 1280 x 720 */
     unsigned turn_deg;            /* 0, 90, 180, 270: the picture stands in the output turned
                                      clockwise by this; by 90 it is height_px wide */
+    float scale;       /* of colour: the scene is drawn at this share of that width and height, and
+                          scaled, captions are not; 0: 1 */
+    bool scaled_later; /* by the display: the picture stays as it is drawn. It has no captions then,
+                          and is not dimmed */
     uint32_t msaa;
     bool unencoded;      /* its framebuffer does not encode: shaders do */
     bool linear, floats; /* it stores linear bytes, or half floats */
@@ -129,6 +133,9 @@ struct gn_frame_opts {
                  it is a picture. Needs rgba16f targets, and a tone that is mapped as surfaces are
                  drawn: else plan.gathers is false */
 };
+
+/* How many of the pixels of a side are drawn at that scale; even, as displays want them. */
+uint32_t gn_frame_scaled_px(uint32_t px, float scale);
 
 /* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from
  * +Z, towards +X. Moved by the user and by the turntable; never that of a light. */

@@ -106,8 +106,8 @@ static void add_marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
 
 /* ---- panels ---- */
 
-struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect r) {
-    const uint32_t w = frame->picture.width_px, h = frame->picture.height_px;
+struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, uint32_t w, uint32_t h,
+                                    struct gn_rect r) {
     const float c = frame->picture.turn[0], s = frame->picture.turn[1];
     if (s > 0) return (struct gn_rect){r.y, w - r.x - r.width, r.height, r.width};
     if (s < 0) return (struct gn_rect){h - r.y - r.height, r.x, r.height, r.width};
@@ -153,7 +153,7 @@ static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
     c[PANEL_PX][3] = frame->picture.turn[1];
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
-    pass->rect = gn_frame_turned_rect(frame, rect);
+    pass->rect = gn_frame_turned_rect(frame, width, height, rect);
     pass->picture.first_shadow = slot;
     pass->picture.shadow_count = 1;
     pass->picture.reads_codes = true;

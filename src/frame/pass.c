@@ -1,5 +1,6 @@
 /* What passes are made of: the builder's lists and constants, programs, passes and their bare
  * draws. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -57,6 +58,18 @@ struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label)
                                       .width_px = frame->plan.width_px,
                                       .height_px = frame->plan.height_px};
     return pass;
+}
+
+uint32_t gn_frame_scaled_px(uint32_t px, float scale) {
+    const uint32_t scaled = 2 * (uint32_t)lroundf(0.5f * scale * (float)px);
+    return scaled < 2 ? px : scaled < px ? scaled : px;
+}
+
+void gn_frame_to_shown(const struct gn_frame *frame, struct gn_pass *pass) {
+    if (!gn_plan_scales(&frame->plan)) return;
+    pass->target = (struct gn_target){.kind = GN_TARGET_SCALED,
+                                      .width_px = frame->plan.shown_width_px,
+                                      .height_px = frame->plan.shown_height_px};
 }
 
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group) {

@@ -120,6 +120,7 @@ enum gn_target_kind {
     GN_TARGET_OUTPUT,
     GN_TARGET_SHADOW,
     GN_TARGET_ENCODED, /* bytes beside a linear output, which the first pass to it reads */
+    GN_TARGET_SCALED,  /* of the size that is shown, when the scene is drawn at another */
     GN_TARGET_MEAN,    /* beside an output that `gathers`. 1: of a part of the pictures, which is
                           drawn from the output; 0: of all, from those */
     GN_TARGET_PAGES,   /* beside a map, of its size, or that of one of its cascades: from here a
@@ -211,6 +212,8 @@ struct gn_pass {
             bool reads_atlas; /* plan->atlas is behind sampler 0 */
             uint32_t mean_of; /* the mean of that view's pictures is, from 1; 0: none */
             bool resolves;    /* the last to OUTPUT: its samples are averaged after this pass */
+            bool scales; /* to SCALED, which the picture so far fills, by a linear filter; draws
+                            nothing */
         } picture;
         struct gn_pass_map {
             uint32_t border_px; /* this many texels at the target's rim stay cleared (scissor) */
@@ -251,8 +254,9 @@ enum gn_output_format {
     GN_OUTPUT_AOV,     /* RGBA32UI: bits of four floats; not blended, not antialiased */
 };
 struct gn_plan {
-    uint32_t view; /* whose output and maps it draws to: those of other views stay */
-    uint32_t width_px, height_px;
+    uint32_t view;                /* whose output and maps it draws to: those of other views stay */
+    uint32_t width_px, height_px; /* that the scene is drawn at */
+    uint32_t shown_width_px, shown_height_px; /* of the finished picture */
     enum gn_output_format output;
     bool encode_srgb; /* sRGB wanted of a GPU without such a target: shaders encode, or, where
                          the picture is finished last, the last pass does */
@@ -309,6 +313,10 @@ static inline struct gn_corners gn_draw_corners(const struct gn_scene *scene,
     const struct gn_level *level = &detail->geometries[draw->geometry].at[draw->level - 1];
     return (struct gn_corners){detail->indices + level->first_index, level->index_count,
                                level->vertex_count};
+}
+/* Whether the scene is drawn at another size than the picture has. */
+static inline bool gn_plan_scales(const struct gn_plan *plan) {
+    return plan->shown_width_px != plan->width_px || plan->shown_height_px != plan->height_px;
 }
 /* What its shadows take on the GPU: maps, their pages, what they are filtered into. */
 uint64_t gn_plan_map_bytes(const struct gn_plan *plan);

@@ -102,6 +102,7 @@ static void print_target(const struct gn_pass *pass, FILE *to) {
     switch (pass->target.kind) {
     case GN_TARGET_OUTPUT: fprintf(to, "picture"); break;
     case GN_TARGET_ENCODED: fprintf(to, "picture in bytes"); break;
+    case GN_TARGET_SCALED: fprintf(to, "picture as shown"); break;
     case GN_TARGET_MEAN: fprintf(to, "mean %u", pass->target.index); break;
     case GN_TARGET_SHADOW:
         fprintf(to, "map %u (%s, rim %u px)", pass->target.slot,
@@ -206,6 +207,8 @@ void gn_plan_print(const struct gn_plan *plan, FILE *to) {
     fprintf(to, "plan %u x %u, %s %s%s, msaa %u, exposure %.4g, %u items culled\n", plan->width_px,
             plan->height_px, aovs[plan->aov], outputs[plan->output],
             plan->stencil ? " + stencil" : "", plan->msaa, (double)plan->exposure, plan->culled);
+    if (gn_plan_scales(plan))
+        fprintf(to, "scaled to %u x %u\n", plan->shown_width_px, plan->shown_height_px);
     if (plan->tone != GN_TONE_NONE)
         fprintf(to, "tone %s%s\n", tones[plan->tone], plan->finishes ? ", by the last pass" : "");
     for (uint32_t i = 0; i < plan->program_count; i++) {

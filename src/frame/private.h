@@ -125,8 +125,10 @@ struct gn_frame {
     uint32_t camera;             /* of the scene; after those its lights */
     struct gn_eye eye;
     struct {
-        uint32_t width_px, height_px; /* before it is turned */
-        float turn[2];                /* cosine and sine of that, clockwise */
+        uint32_t width_px, height_px;             /* before it is turned, as it is drawn */
+        uint32_t shown_width_px, shown_height_px; /* likewise, as it is finished */
+        float scale;   /* pixels as they are drawn for each that is shown */
+        float turn[2]; /* cosine and sine of that, clockwise */
     } picture;
     struct gn_plan plan;
 };
@@ -172,6 +174,8 @@ uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *k
 struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame, enum gn_pass_kind kind);
 void gn_frame_end_pass(struct gn_frame *frame);
 /* Begins a pass to the output. */
+/* Where the scene is drawn at another size, the pass's target is the finished picture. */
+void gn_frame_to_shown(const struct gn_frame *frame, struct gn_pass *pass);
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
 /* The same with what the programs of a group of lights read; later groups are added by blending. */
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);
@@ -250,8 +254,9 @@ void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts, uint32_t group);
 /* Whether the group has any that is visible. */
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
-/* Where a rectangle of the picture is in the output. */
-struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, struct gn_rect rect);
+/* Where a rectangle of a picture of that size, before it is turned, is in the output. */
+struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, uint32_t width_px,
+                                    uint32_t height_px, struct gn_rect rect);
 
 /* ---- tone.c ---- */
 

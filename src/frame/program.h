@@ -34,6 +34,7 @@
     X(overlay)                                                                                     \
     X(encode)                                                                                      \
     X(mean)                                                                                        \
+    X(scale)                                                                                       \
     X(captions)
 
 enum { GN_PROGRAM_BARE = 1, GN_PROGRAM_ENCODING = 2 };

@@ -17,8 +17,8 @@ static bool is_srgb(const struct gn_gl_output *o) {
 }
 
 static bool fits(const struct gn_gl_kept *k, const struct gn_gl_output *o) {
-    return k->framebuffer && k->width_px == o->width_px && k->height_px == o->height_px &&
-           k->srgb == is_srgb(o);
+    return k->framebuffer && k->width_px == o->shown_width_px &&
+           k->height_px == o->shown_height_px && k->srgb == is_srgb(o);
 }
 
 void gn_gl_kept_finish(struct gn_gl *gl) {
@@ -40,8 +40,8 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
     if (fits(k, o)) return true;
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &k->framebuffer);
     gn_gl_object_destroy(gl, GN_GL_TEXTURE, &k->texture);
-    k->width_px = o->width_px;
-    k->height_px = o->height_px;
+    k->width_px = o->shown_width_px;
+    k->height_px = o->shown_height_px;
     k->srgb = is_srgb(o);
     k->texture =
         gn_gl_texture_make(gl, 1, k->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, k->width_px, k->height_px);
@@ -79,7 +79,7 @@ void gn_gl_lay_over(struct gn_gl *gl, float share) {
     const struct gn_gl_output *o = gl->targets.output;
     if (!fits(k, o) || !k->program) return;
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
-    gn_gl_set_whole(gl, o->width_px, o->height_px, GN_BLEND_ALPHA);
+    gn_gl_set_whole(gl, o->shown_width_px, o->shown_height_px, GN_BLEND_ALPHA);
     gn_gl_use_program(gl, k->program);
     gn_gl_bind_texture(gl, GN_GL_UNIT_WORK, k->texture,
                        gl->targets.map_samplers[GN_GL_MAP_NEAREST]);
@@ -92,8 +92,8 @@ void gn_gl_lay_beside(struct gn_gl *gl, uint32_t columns_px) {
     const struct gn_gl_kept *k = &gl->kept;
     const struct gn_gl_output *o = gl->targets.output;
     const GLuint to = gn_gl_output_finished(o);
-    const GLint w = (GLint)(columns_px < o->width_px ? columns_px : o->width_px),
-                h = (GLint)o->height_px;
+    const GLint w = (GLint)(columns_px < o->shown_width_px ? columns_px : o->shown_width_px),
+                h = (GLint)o->shown_height_px;
     if (!fits(k, o) || w == 0) return;
     gn_gl_set_scissor(gl, NULL);
     gn_gl_set_color_write(gl, true);

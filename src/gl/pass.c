@@ -119,14 +119,18 @@ void gn_gl_pages_copy(struct gn_gl *gl, const struct gn_pass *pass) {
     GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, gl->state.framebuffer); /* as the cache says */
 }
 
-/* Copies the picture between framebuffers; the source is invalidated. */
-static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
+/* Copies the picture between framebuffers, to that size; the source is invalidated. */
+static void blit_output(struct gn_gl *gl, GLuint from, GLuint to, uint32_t width_px,
+                        uint32_t height_px) {
     static const GLenum color = GL_COLOR_ATTACHMENT0;
-    const GLint w = (GLint)gl->targets.output->width_px, h = (GLint)gl->targets.output->height_px;
+    const struct gn_gl_output *o = gl->targets.output;
+    const bool scales = width_px != o->width_px || height_px != o->height_px;
     gn_gl_set_scissor(gl, NULL);
     gn_gl_bind_framebuffer(gl, from);
     GL(gl, BindFramebuffer)(GL_DRAW_FRAMEBUFFER, to);
-    GL(gl, BlitFramebuffer)(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    GL(gl, BlitFramebuffer)
+    (0, 0, (GLint)o->width_px, (GLint)o->height_px, 0, 0, (GLint)width_px, (GLint)height_px,
+     GL_COLOR_BUFFER_BIT, scales ? GL_LINEAR : GL_NEAREST);
     GL(gl, InvalidateFramebuffer)(GL_READ_FRAMEBUFFER, 1, &color);
     GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, from); /* as the cache says */
 }
@@ -134,6 +138,15 @@ static void blit_output(struct gn_gl *gl, GLuint from, GLuint to) {
 void gn_gl_output_resolve(struct gn_gl *gl) {
     const struct gn_gl_output *o = gl->targets.output;
     if (o->resolved == o->framebuffer) return;
-    blit_output(gl, o->framebuffer, o->resolved);
-    if (o->window && !o->encodes) blit_output(gl, o->resolved, 0);
+    blit_output(gl, o->framebuffer, o->resolved, o->width_px, o->height_px);
+    if (o->window && !o->encodes && !o->scales)
+        blit_output(gl, o->resolved, 0, o->width_px, o->height_px);
+}
+
+void gn_gl_output_scale(struct gn_gl *gl) {
+    const struct gn_gl_output *o = gl->targets.output;
+    gn_gl_set_color_write(gl, true);
+    blit_output(gl, o->encodes ? o->encoded : o->resolved, o->scaled, o->shown_width_px,
+                o->shown_height_px);
+    gn_gl_bind_framebuffer(gl, o->scaled);
 }

@@ -66,6 +66,8 @@ void gn_gl_depth_discard(struct gn_gl *gl, const struct gn_pass *pass);
 /* Averages samples in linear light, in an off-screen target: a multisampled window would average
  * encoded values. */
 void gn_gl_output_resolve(struct gn_gl *gl);
+/* The picture so far, to the size that is shown. */
+void gn_gl_output_scale(struct gn_gl *gl);
 /* Binds what a pass reads besides material textures. */
 void gn_gl_sources_bind(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass);
 /* constants_hash: of pass->constants. first, count: of the draw's indices, or bare vertices. */

@@ -35,20 +35,20 @@ bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err) {
     if (!has_output(gl, err)) return false;
     if (format == GN_OUTPUT_FLOAT || format == GN_OUTPUT_AOV)
         return gn_fail(err, "the picture is not 8 bits per channel");
-    read_pixels(gl, o->width_px, o->height_px, GL_RGBA, GL_UNSIGNED_BYTE, out);
-    flip_rows(out, 4ul * o->width_px, o->height_px);
+    read_pixels(gl, o->shown_width_px, o->shown_height_px, GL_RGBA, GL_UNSIGNED_BYTE, out);
+    flip_rows(out, 4ul * o->shown_width_px, o->shown_height_px);
     return gn_gl_error_check(gl, "reading the picture", err);
 }
 
 bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err) {
     const struct gn_gl_output *o = gl->targets.output;
-    const size_t row = 4ul * o->width_px, size = row * o->height_px;
+    const size_t row = 4ul * o->shown_width_px, size = row * o->shown_height_px;
     if (gl->read_buffer.size < size) {
         gl->read_buffer.data = gn_xrealloc(gl->read_buffer.data, size, 1);
         gl->read_buffer.size = size;
     }
     if (!gn_gl_read_rgba8(gl, gl->read_buffer.data, err)) return false;
-    for (uint32_t y = 0; y < o->height_px; y++) {
+    for (uint32_t y = 0; y < o->shown_height_px; y++) {
         const uint8_t *from = gl->read_buffer.data + y * row;
         for (uint8_t *to = out + y * stride, *end = to + row; to < end; to += 4, from += 4) {
             to[0] = from[2];
@@ -84,12 +84,13 @@ bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!has_output(gl, err)) return false;
     if (format == GN_OUTPUT_AOV)
-        read_pixels(gl, o->width_px, o->height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT, out);
+        read_pixels(gl, o->shown_width_px, o->shown_height_px, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
+                    out);
     else if (format == GN_OUTPUT_FLOAT)
-        gn_gl_read_floats(gl, o->width_px, o->height_px, out);
+        gn_gl_read_floats(gl, o->shown_width_px, o->shown_height_px, out);
     else
         return gn_fail(err, "the picture is not floats");
-    flip_rows(out, 4ul * sizeof *out * o->width_px, o->height_px);
+    flip_rows(out, 4ul * sizeof *out * o->shown_width_px, o->shown_height_px);
     return gn_gl_error_check(gl, "reading the picture", err);
 }
 

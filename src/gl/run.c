@@ -73,6 +73,7 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
     if (map) return map->framebuffer;
     const struct gn_gl_output *output = gl->targets.output;
     if (pass->target.kind == GN_TARGET_MEAN) return output->means[pass->target.index];
+    if (pass->target.kind == GN_TARGET_SCALED) return output->scaled;
     return pass->target.kind == GN_TARGET_ENCODED ? output->encoded : output->framebuffer;
 }
 
@@ -145,6 +146,7 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     }
     if (depth_done) gn_gl_depth_discard(gl, pass);
     if (pass->kind == GN_PASS_PICTURE && pass->picture.resolves) gn_gl_output_resolve(gl);
+    if (pass->kind == GN_PASS_PICTURE && pass->picture.scales) gn_gl_output_scale(gl);
     if (grouped) GL(gl, PopDebugGroup)();
     return !gl->debug.on || gn_gl_error_check(gl, pass->label, err);
 }

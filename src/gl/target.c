@@ -51,6 +51,8 @@ static void output_finish(struct gn_gl *gl, struct gn_gl_output *o) {
     gn_gl_object_destroy(gl, GN_GL_TEXTURE, &o->texture);
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->encoded);
     gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->encoded_color);
+    gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->scaled);
+    gn_gl_object_destroy(gl, GN_GL_RENDERBUFFER, &o->scaled_color);
     for (int i = 0; i < 2; i++) {
         gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &o->means[i]);
         gn_gl_object_destroy(gl, GN_GL_TEXTURE, &o->mean_colors[i]);
@@ -80,6 +82,7 @@ static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color
 
 GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
     if (output->window) return 0;
+    if (output->scales) return output->scaled;
     return output->encodes ? output->encoded : output->resolved;
 }
 
@@ -89,7 +92,8 @@ enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output) {
 
 static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err *err) {
     const bool encoded = o->encodes;
-    if (o->window && !encoded && !o->msaa) return true; /* the display provides everything */
+    if (o->window && !encoded && !o->msaa && !o->scales)
+        return true; /* the display provides everything */
     o->depth = make_renderbuffer(gl, o->stencil ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT24,
                                  (GLsizei)o->msaa, o->width_px, o->height_px);
     o->framebuffer = gn_gl_framebuffer_make(gl);
@@ -109,12 +113,19 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
         attach_color(gl, o, &o->resolved_color, 0, encoded);
         if (!gn_gl_framebuffer_check(gl, "resolved output", err)) return false;
     }
-    if (encoded && !o->window) {
-        o->encoded_color =
-            make_renderbuffer(gl, output_formats[o->finished].format, 0, o->width_px, o->height_px);
+    const GLenum finished = output_formats[gn_gl_output_format(o)].format;
+    if (encoded && (!o->window || o->scales)) {
+        o->encoded_color = make_renderbuffer(gl, finished, 0, o->width_px, o->height_px);
         o->encoded = gn_gl_framebuffer_make(gl);
         attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->encoded_color);
         if (!gn_gl_framebuffer_check(gl, "encoded output", err)) return false;
+    }
+    if (o->scales && !o->window) {
+        o->scaled_color = make_renderbuffer(gl, finished, 0, o->shown_width_px, o->shown_height_px);
+        o->scaled = gn_gl_framebuffer_make(gl);
+        attach_renderbuffer(gl, GL_COLOR_ATTACHMENT0, o->scaled_color);
+        o->bytes += 4ull * o->shown_width_px * o->shown_height_px;
+        if (!gn_gl_framebuffer_check(gl, "scaled output", err)) return false;
     }
     for (int i = 0; o->gathers && i < 2; i++) {
         o->means[i] = gn_gl_framebuffer_make(gl);
@@ -124,15 +135,29 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
     return gn_gl_error_check(gl, "making the output", err);
 }
 
+/* Samples of a window's picture are averaged off screen, whether it is scaled there or not. */
+static bool has_same_storage(const struct gn_gl_output *a, const struct gn_gl_output *b) {
+    const bool is_shown_alike = a->scales == b->scales && a->shown_width_px == b->shown_width_px &&
+                                a->shown_height_px == b->shown_height_px;
+    return a->window == b->window && a->width_px == b->width_px && a->height_px == b->height_px &&
+           a->format == b->format && a->msaa_wanted == b->msaa_wanted && a->stencil == b->stencil &&
+           a->encodes == b->encodes && a->finished == b->finished && a->gathers == b->gathers &&
+           (is_shown_alike || (a->msaa && a->window && !a->encodes));
+}
+
 /* pixel: like the output of the plan, but 1 x 1 and never a window. */
 static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
                           const struct gn_plan *plan, struct gn_err *err) {
     const bool fits_window =
-        plan->width_px == gl->window.width_px && plan->height_px == gl->window.height_px &&
+        plan->shown_width_px == gl->window.width_px &&
+        plan->shown_height_px == gl->window.height_px &&
         (gl->window.srgb ? plan->finished == GN_OUTPUT_SRGB8 : plan->encode_srgb);
     struct gn_gl_output wanted = {
         .width_px = pixel ? 1 : plan->width_px,
         .height_px = pixel ? 1 : plan->height_px,
+        .shown_width_px = pixel ? 1 : plan->shown_width_px,
+        .shown_height_px = pixel ? 1 : plan->shown_height_px,
+        .scales = gn_plan_scales(plan),
         .format = plan->output,
         .stencil = plan->stencil || gl->targets.wants_stencil,
         .msaa_wanted = plan->msaa,
@@ -142,12 +167,12 @@ static bool output_ensure(struct gn_gl *gl, struct gn_gl_output *o, bool pixel,
         .gathers = plan->gathers,
         .made = true,
     };
-    if (o->made && o->window == wanted.window && o->width_px == wanted.width_px &&
-        o->height_px == wanted.height_px && o->format == wanted.format &&
-        o->msaa_wanted == wanted.msaa_wanted && o->stencil == wanted.stencil &&
-        o->encodes == wanted.encodes && o->finished == wanted.finished &&
-        o->gathers == wanted.gathers)
+    if (o->made && has_same_storage(o, &wanted)) {
+        o->scales = wanted.scales;
+        o->shown_width_px = wanted.shown_width_px;
+        o->shown_height_px = wanted.shown_height_px;
         return true;
+    }
     output_finish(gl, o);
     if (plan->msaa > 1 && plan->output != GN_OUTPUT_AOV && gl->caps.has & 1u << GN_CAP_MSAA4) {
         GLint most = 0; /* the largest is listed first */

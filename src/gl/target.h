@@ -6,9 +6,11 @@
 
 struct gn_gl_output {
     uint32_t width_px, height_px, msaa, msaa_wanted;
+    uint32_t shown_width_px, shown_height_px; /* of the finished picture */
     enum gn_output_format format;
     bool made;
     bool window;  /* the finished picture goes to the display's framebuffer (name 0) */
+    bool scales;  /* it has another size than passes draw */
     bool encodes; /* a last pass makes a picture of bytes of it */
     enum gn_output_format finished;
     bool stencil; /* beside the depth, in `depth` */
@@ -16,6 +18,7 @@ struct gn_gl_output {
     GLuint resolved, resolved_color; /* without msaa the same as framebuffer, and 0 */
     /* With such a pass: the linear picture as a texture, and the result, in that format. */
     GLuint texture, encoded, encoded_color;
+    GLuint scaled, scaled_color; /* 0: the window, or nothing is scaled */
     bool gathers; /* the picture is a texture, and beside it are means, by their index */
     GLuint means[2], mean_colors[2];
     uint64_t bytes;
@@ -66,7 +69,7 @@ void gn_gl_targets_choose(struct gn_gl *gl, uint32_t view);
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* gl->targets.pixel as the plan's output. */
 bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
-/* The framebuffer that holds the finished picture, and its format. */
+/* The framebuffer that holds the finished picture, of shown_width_px, and its format. */
 GLuint gn_gl_output_finished(const struct gn_gl_output *output);
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);
 /* The map, pages or moments of a target; NULL: not created. */

@@ -37,9 +37,9 @@ static enum gn_gl_warmth warm_next(struct gn_gl *gl, const struct gn_plan *plan,
     /* A window has formats of its own: the draw goes to a corner of it, if the next picture covers
      * that. */
     struct gn_gl_output *const o = gl->targets.output;
-    const bool corner = gl->window.width_px == plan->width_px &&
-                        gl->window.height_px == plan->height_px && o->window &&
-                        o->format == plan->output && o->made;
+    const bool corner = gl->window.width_px == plan->shown_width_px &&
+                        gl->window.height_px == plan->shown_height_px && o->window &&
+                        o->scales == gn_plan_scales(plan) && o->format == plan->output && o->made;
     if (!corner && !gn_gl_pixel_ensure(gl, plan, err)) return GN_GL_WARM_FAILED;
     if (!corner) gl->targets.output = &gl->targets.pixel;
     const bool ok = gn_gl_touch(gl, plan, index, err);

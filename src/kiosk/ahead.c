@@ -204,6 +204,7 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     loaded->occluder = shown.occluder;
     loaded->detailer = shown.detailer;
     gn_show_drop_staged(s);
+    s->scaling = (struct gn_show_scaling){0};
     s->ahead.idle = false;
     s->ahead.alone = true; /* how long its frames take is not known yet */
 }

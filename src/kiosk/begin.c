@@ -112,6 +112,7 @@ bool gn_show_begin(struct gn_show *s, int scene, struct gn_err *err) {
     const int frames = screen->stage.settings->run.frames;
     s->counts.most_frames = frames > 0 && !s->reload.first ? (uint64_t)frames : UINT64_MAX;
     screen->hand = (struct gn_show_hand){0};
+    screen->scaling = (struct gn_show_scaling){0};
     screen->stage.shown.rested_ns = 0;
     gn_show_list_modes(s, scene);
     gn_truth_drop(screen);

@@ -55,6 +55,13 @@ static void keep_picture(struct gn_show_screen *s) {
     s->fade.kept = true;
 }
 
+/* Something is drawn over the scene that is as large as the screen, or this picture is kept. */
+static bool covers(const struct gn_show_screen *s, const struct gn_kiosk_view *view) {
+    const struct gn_frame_cover_opts *cover = &s->stage.shown.opts.cover;
+    return cover->captions || cover->dimmed > 0.0f || s->split.on || s->fade.keeps ||
+           view->old > 0.0f || (s->show->screenshot && gn_screenshot_is_asked(s->show->screenshot));
+}
+
 /* *behind: a filtered map is older than the pose, so another frame is due. */
 static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *err) {
     const struct gn_screen *screen = &s->stage.display.screen;
@@ -77,6 +84,7 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
         s->stage.shown.opts.cover.captions = NULL;
         s->stage.shown.opts.cover.dimmed = 0.0f;
     }
+    gn_show_scale_frame(s, !is_bare && !covers(s, &view));
     const int64_t scene_ns = s->stage.settings->scene.time_ns + view.time_ns;
     gn_show_step_turntable(s, seen_ns, scene_ns);
     gn_still_lay_over(s, scene_ns, view.mode != s->drawn.mode || view.scene != s->drawn.scene);

@@ -1,11 +1,15 @@
 /* The display of the kiosk, and its GL context. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "core/stop.h"
 #include "kiosk/private.h"
 #include "options/value.h"
+#include "stage/time.h"
 #include "stage/wake.h"
+
+#define LEAST_PERIOD_MS (1000.0 / 60) /* faster displays are not filled at the picture's cost */
 
 bool gn_show_open_display(struct gn_show_screen *s, struct gn_err *err) {
     const struct gn_settings *o = s->stage.settings;
@@ -46,6 +50,25 @@ bool gn_show_open_display(struct gn_show_screen *s, struct gn_err *err) {
     return ok;
 }
 
+double gn_show_scale(const struct gn_show_screen *s) {
+    const double scale = s->stage.settings->display.scale;
+    return !isnan(scale) ? scale : s->scaling.automatic > 0 ? s->scaling.automatic : 1.0;
+}
+
+/* Once for each scene and size of the screen, in the mode that is shown then: a picture that is
+ * sharper in some moments than in others is worse than one that is late. */
+static void choose_scale(struct gn_show_screen *s) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    const struct gn_cost_gpu *gpu = gn_cost_gpu_of(gn_gl_caps(s->stage.gl)->renderer);
+    struct gn_show_scaling *scaling = &s->scaling;
+    const bool known = scaling->automatic > 0 && scaling->width_px == screen->width_px &&
+                       scaling->height_px == screen->height_px;
+    if (known || !isnan(s->stage.settings->display.scale) || s->show->reload.first) return;
+    *scaling = (struct gn_show_scaling){1, screen->width_px, screen->height_px};
+    const double period_ms = fmax((double)screen->period_ns * 1e-6, LEAST_PERIOD_MS);
+    if (gpu) scaling->automatic = gn_stage_scale(&s->stage, gpu, period_ms);
+}
+
 void gn_show_fit_to_screen(struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
     const bool direct = s->stage.display.ops->screen && !screen->copy_to;
@@ -61,7 +84,22 @@ void gn_show_fit_to_screen(struct gn_show_screen *s) {
     };
     if (output->unencoded != before.unencoded || output->msaa != before.msaa)
         gn_show_unready(s); /* other programs */
+    choose_scale(s);
+    output->scale = (float)gn_show_scale(s);
     gn_gl_set_window(s->stage.gl, direct ? &window : NULL);
+}
+
+void gn_show_scale_frame(struct gn_show_screen *s, bool bare) {
+    const struct gn_screen *screen = &s->stage.display.screen;
+    struct gn_frame_output_opts *output = &s->stage.shown.opts.output;
+    const struct gn_gl_window part = {gn_frame_scaled_px(output->width_px, output->scale),
+                                      gn_frame_scaled_px(output->height_px, output->scale),
+                                      screen->srgb};
+    const bool scales = output->scale < 1.0f;
+    output->scaled_later = scales && bare && !screen->copy_to &&
+                           gn_display_scale(&s->stage.display, part.width_px, part.height_px);
+    s->context.scaled_by = output->scaled_later ? "plane" : scales ? "blit" : "none";
+    if (output->scaled_later) gn_gl_set_window(s->stage.gl, &part);
 }
 
 void gn_show_stop_gl(struct gn_show_screen *s) {

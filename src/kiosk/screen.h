@@ -24,8 +24,14 @@ struct gn_show_context {
     uint32_t generation;     /* of the context that stage.gl lives in; 0: none */
     bool message;            /* the screen shows a text in place of pictures */
     bool lacks_range;        /* and a problem says so */
+    const char *scaled_by;   /* what makes the last frame as large as the screen: "plane", "blit",
+                                "none"; NULL: no frame yet */
     uint64_t checked_stalls; /* stalled flips when the GPU was last tested, */
     int64_t checked_ns;      /* which was then */
+};
+struct gn_show_scaling { /* scale = auto */
+    double automatic;    /* that was decided; 0: not yet, for the scene and that size */
+    uint32_t width_px, height_px;
 };
 struct gn_show_hand { /* of who turns the view */
     struct gn_turntable turntable;
@@ -63,6 +69,7 @@ struct gn_show_screen {
     struct gn_show_looks looks; /* of the stage's scene */
     struct gn_show_staged staged;
     struct gn_show_context context;
+    struct gn_show_scaling scaling;
     struct gn_kiosk_rules rules;
     struct gn_kiosk kiosk;
     struct gn_kiosk_view drawn; /* by the last frame */
@@ -99,7 +106,12 @@ bool gn_show_frame(struct gn_show_screen *screen, struct gn_err *err);
 bool gn_show_open_display(struct gn_show_screen *screen, struct gn_err *err);
 /* False: between these settings the display has to be opened again. */
 bool gn_show_same_screen(const struct gn_settings *a, const struct gn_settings *b);
-/* Frame options that follow from the screen: size, rotation, encoding, MSAA. */
+/* The share of the screen's width and height that the scene is drawn at. */
+double gn_show_scale(const struct gn_show_screen *screen);
+/* Where the scene is drawn smaller and the display can scale, it does for this frame. bare: nothing
+ * is drawn over the scene, as large as the screen. After gn_show_fit_to_screen(). */
+void gn_show_scale_frame(struct gn_show_screen *screen, bool bare);
+/* Frame options that follow from the screen: size, scale, rotation, encoding, MSAA. */
 void gn_show_fit_to_screen(struct gn_show_screen *screen);
 bool gn_show_is_stale(const struct gn_show_screen *screen); /* gn_show_keep_context() is due */
 /* Renews a lost context and starts GL in a new one. A failure of GL is shown on the screen. */

@@ -154,6 +154,7 @@ struct gn_display_settings {
     int rotate_deg, max_fps; /* 0: as fast as the display */
     int touch_rotate_deg;
     int pixel_shift_px; /* 0: none */
+    double scale;       /* of the scene's width and height; NAN: by what the GPU can do */
     bool legacy;
     int range;          /* enum gn_screen_range */
     int console_locked; /* 0, 1 */

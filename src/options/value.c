@@ -413,7 +413,7 @@ static const struct kind {
     [GN_KIND_MS] = {sizeof(int64_t), false, parse_ms, print_ms, .expected = "a whole number from %.0f to %.0f"},
     [GN_KIND_SIZE] = {sizeof(struct gn_size), false, parse_size, print_size, .expected = "a size WxH, each side from %.0f to %.0f"},
     [GN_KIND_MODE] = {sizeof(struct gn_display_mode), false, parse_mode, print_mode, .expected = "WxH or WxH@HZ, each side from %.0f to %.0f"},
-    [GN_KIND_EV] = {sizeof(double), false, parse_ev, print_number, .expected = "auto or a number from %.0f to %.0f"},
+    [GN_KIND_EV] = {sizeof(double), false, parse_ev, print_number, .expected = "auto or a number from %.9g to %.9g"},
     [GN_KIND_LEVEL] = {sizeof(double), false, parse_level, print_number, .expected = "auto, none or a number from %.0f to %.0f"},
     [GN_KIND_SHARE] = {sizeof(double), false, parse_share, print_share, .expected = "auto, full or a number from %.0f to %.0f"},
     [GN_KIND_POINT] = {3 * sizeof(double), false, parse_point, print_point, .expected = "auto or three numbers X,Y,Z"},

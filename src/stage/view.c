@@ -43,6 +43,7 @@ static void count_changes(struct gn_view *view) {
     memset(&now, 0, sizeof now); /* with the padding, which is compared */
     memcpy(&now.view, &view->opts.view, sizeof now.view);
     memcpy(&now.output, &view->opts.output, sizeof now.output);
+    now.output.scaled_later = false; /* the same picture */
     memcpy(&now.at, &view->pose->at, sizeof now.at);
     if (gn_pose_stands(view->pose)) now.at.time_ns = INT64_MIN; /* all times are the same moment */
     if (memcmp(&now, &view->posed, sizeof now) == 0) return;

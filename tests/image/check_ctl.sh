@@ -248,6 +248,27 @@ expect 0 'file' screenshot turned.png
 "$compare" turned.png two.png > out || complain "a screenshot of a turned screen is not upright: $(cat out)"
 stop
 
+# ---- a scene that is drawn smaller ----------------------------------------------------------------
+printf '%s\n' '[scene]' 'file = sundial.glb' 'no_animation = yes' '[render]' 'msaa = 0' 'shadow = hard' '[display]' 'scale = 0.5' > small.ini
+start -c small.ini
+settle
+expect 0 'screen.scale: 0.5' status
+expect 0 'screen.scaled_by: blit' status
+expect 0 'screen.width: 160' status
+expect 0 file screenshot small.png
+sed -i '/scale/d' small.ini
+expect 0 'scene: sundial.glb' reload
+settle
+expect 0 'screen.scale: 1' status # auto, on a GPU that no figures are of
+expect 0 'screen.scaled_by: none' status
+expect 0 file screenshot large.png
+"$gnomon" render sundial.glb --no-animation --msaa 0 --size 160x90 --shadow hard -o two.png || complain 'render'
+cmp -s large.png two.png || complain 'after a reload without scale the picture is not that of render'
+cmp -s small.png two.png && complain 'scale changes nothing'
+printf 'scale = 0.4\n' >> small.ini
+expect 2 '0.5 to 1' reload
+stop
+
 # ---- a name with control characters does not reach the terminal as such -----------------------------
 evil=$(printf 'a\033[31m\302\233b.glb')
 cp sundial.glb "$evil"

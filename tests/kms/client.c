@@ -15,6 +15,10 @@ static bool find_holder(const char *node, char *out, size_t size) {
 
 static struct gn_kms_env env = {.drm = &sim_drm, .scanout = &sim_gl, .find_holder = find_holder};
 
+static float drawn = 1;
+
+void client_draws(float share) { drawn = share; }
+
 void client_has_uevents(bool uevents) { env.no_uevents = !uevents; }
 
 const struct gn_screen *client_screen(const struct client *c) { return gn_kms_screen(c->kms); }
@@ -90,7 +94,7 @@ static void start_anew(struct client *c) {
 
 static bool wants_frame(const struct client *c) {
     const struct gn_screen *s = client_screen(c);
-    return s->may_draw && (c->moves || c->changed || !s->lit);
+    return s->may_draw && (c->moves || c->changed || s->damaged || !s->lit);
 }
 
 static bool draw(struct client *c, struct gn_err *err) {
@@ -98,9 +102,14 @@ static bool draw(struct client *c, struct gn_err *err) {
     c->told_ns = sim_now();
     if (!gn_kms_begin(c->kms, c->told_ns, err)) return !err->text[0];
     c->colour = c->colour % 1000000 + 1;
+    const uint32_t width_px = 2 * (uint32_t)(drawn * (float)s->width_px / 2),
+                   height_px = 2 * (uint32_t)(drawn * (float)s->height_px / 2);
     if (s->copy_to)
         sim_paint_copy(s->copy_to, c->colour);
-    else
+    else if (drawn < 1 && gn_kms_scale(c->kms, width_px, height_px)) {
+        sim_paint_part(c->colour, width_px, height_px);
+        c->scaled++;
+    } else
         sim_paint(c->colour);
     c->frames++;
     c->changed = false;

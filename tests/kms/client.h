@@ -15,6 +15,7 @@ struct client {
     uint32_t colour; /* of the last frame presented */
     bool gave_up;    /* the screen gave up at least once; a new process was started */
     long frames, steps, restarts;
+    long scaled;     /* of the frames: by the screen */
     int64_t told_ns; /* the time last passed to the screen */
     int64_t now_ns;  /* of the last step */
     int spins;       /* steps at that time */
@@ -34,6 +35,8 @@ void client_end(struct client *client, const struct client_kind *kind);
 
 /* Whether clients receive uevents; the default is true. */
 void client_has_uevents(bool uevents);
+/* Clients draw so much of the width and height, where the screen scales it; the default is 1. */
+void client_draws(float share);
 void client_open(struct client *client, const struct gn_screen_opts *opts);
 /* As client_begin() in a new simulation, with a card that shows the console, and 3 frames. */
 void client_begin_alone(struct client *client, int monitor, const struct gn_screen_opts *opts);

@@ -11,7 +11,10 @@ static const struct sim_traits good = {.console = true},
                                rich = {.console = true, .modifiers = true, .fences = true},
                                taken = {.console = true, .rotation = true, .overlays = true},
                                old = {.console = true, .legacy = true}, dark = {0},
-                               virtual = {.no_vblank = true}, alone = {.gpu_alone = true};
+                               virtual = {.no_vblank = true},
+                               scaling = {.console = true, .fences = true, .enlarges = 200},
+                               liar = {.enlarges = 200, .enlarges_never = true},
+                               alone = {.gpu_alone = true};
 
 static void add(const struct sim_traits *traits, int monitor) {
     sim_add_card(0, "/dev/dri/card1", traits);
@@ -23,6 +26,8 @@ static void build_rich(void) { add(&rich, SIM_FULL_HD); }
 static void build_taken(void) { add(&taken, SIM_FULL_HD); }
 static void build_old(void) { add(&old, SIM_FULL_HD); }
 static void build_virtual(void) { add(&virtual, SIM_FULL_HD); }
+static void build_scaling(void) { add(&scaling, SIM_FULL_HD); }
+static void build_liar(void) { add(&liar, SIM_FULL_HD); }
 static void build_no_monitor(void) { add(&good, SIM_NO_MONITOR); }
 static void build_unknown(void) { add(&good, SIM_NO_EDID); }
 
@@ -274,6 +279,16 @@ const struct scene scenes[] = {
     {"blanked and unblanked", build_good, sleep_and_wake, .opts = {0}},
     {"blanked and unblanked, legacy interface", build_old, sleep_and_wake, .opts = {0}},
     {"message and back", build_rich, a_text_and_back, .opts = {0}},
+    {"scaled by the plane, consoles switched", build_scaling, switch_console, .opts = {0},
+     .draws = 0.75f, .put_back = true},
+    {"scaled by the plane, other monitor", build_scaling, change_monitor, .opts = {0},
+     .draws = 0.75f},
+    {"scaled by the plane, blanked", build_scaling, sleep_and_wake, .opts = {0}, .draws = 0.75f},
+    {"scaled by the plane, stalled", build_scaling, stall_relit, .opts = {0}, .draws = 0.75f},
+    {"scaled by the plane, message and back", build_scaling, a_text_and_back, .opts = {0},
+     .draws = 0.75f},
+    {"scaling refused after TEST_ONLY accepted it", build_liar, replug, .opts = {0},
+     .draws = 0.75f},
     {"GL starts late", build_good, gl_starts_late, .opts = {0}},
 };
 const int scene_count = (int)(sizeof scenes / sizeof *scenes);
@@ -287,6 +302,7 @@ struct ending scene_run(const struct scene *scene, void (*prepare)(void *), void
     sim_begin();
     scene->build();
     if (prepare) prepare(context);
+    client_draws(scene->draws > 0 ? scene->draws : 1);
     client_open(&c, &scene->opts);
     if (scene->play)
         scene->play(&c);
@@ -297,6 +313,7 @@ struct ending scene_run(const struct scene *scene, void (*prepare)(void *), void
     snprintf(status, sizeof status, "%s", client_screen(&c)->status);
     if (right && !prepare && client_screen(&c)->counts.again == 0)
         sim_complain("still picture not flipped again");
+    client_draws(1);
     e.frames = c.frames;
     e.gave_up = c.gave_up;
     client_close(&c);

@@ -9,6 +9,7 @@ struct scene {
     void (*build)(void);            /* sets the machine up */
     void (*play)(struct client *c); /* between opening and end; NULL: a few frames */
     struct gn_screen_opts opts;
+    float draws;      /* that share of the width and height; 0: all */
     int64_t slack_ns; /* extra time it may take */
     bool may_give_up;
     bool put_back;     /* the console must be visible at the end */

@@ -270,6 +270,17 @@ static uint32_t colour_of(const struct sim_bo *bo) {
     return colour;
 }
 
+/* The plane reads what was painted, and nothing else. A flip that is pending is not visible yet. */
+static bool reads_painted(const struct sim_card *card, int crtc) {
+    const struct sim_plane_state *p = &card->state.planes[crtc];
+    const struct sim_bo *bo = card->crtcs[crtc].shown->bo;
+    const uint64_t width = bo->painted[0] ? bo->painted[0] : bo->width_px,
+                   height = bo->painted[1] ? bo->painted[1] : bo->height_px;
+    return card->crtcs[crtc].flip.pending ||
+           (p->src[0] == 0 && p->src[1] == (bo->height_px - height) << 16 &&
+            p->src[2] == width << 16 && p->src[3] == height << 16);
+}
+
 static bool connector_shows(const struct sim_card *card, int i, uint32_t colour) {
     const struct sim_connector_state *c = &card->state.connectors[i];
     if (!card->plugged[i] || c->crtc < 0 || c->bad_link || c->asleep) return false;
@@ -279,7 +290,7 @@ static bool connector_shows(const struct sim_card *card, int i, uint32_t colour)
     if (!crtc->active || !shown || !is_listed(card->plugged[i], &crtc->mode)) return false;
     for (int p = SIM_CRTCS; p < SIM_PLANES; p++) /* an overlay covers it */
         if (card->state.planes[p].crtc == c->crtc) return false;
-    return colour_of(shown->bo) == colour;
+    return colour_of(shown->bo) == colour && reads_painted(card, c->crtc);
 }
 
 bool sim_shows(uint32_t colour) {

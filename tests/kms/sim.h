@@ -52,11 +52,13 @@ struct sim_traits { /* of a card; zero is a normal one */
     bool legacy;    /* no atomic interface */
     bool no_vblank; /* no vblank: flips complete at once, as with virtio */
     bool modifiers, fences;
-    bool rotation;    /* planes can rotate, and the console leaves one rotated */
-    bool overlays;    /* other programs leave an overlay */
-    bool console;     /* initially shows the text console */
-    bool range;       /* connectors have "Broadcast RGB", and somebody has limited it, */
-    bool keeps_range; /* and it cannot be changed with a mode */
+    bool rotation;       /* planes can rotate, and the console leaves one rotated */
+    bool overlays;       /* other programs leave an overlay */
+    unsigned enlarges;   /* by how much a primary plane does at most, in percent; 0: not at all */
+    bool enlarges_never; /* although TEST_ONLY accepts it */
+    bool console;        /* initially shows the text console */
+    bool range;          /* connectors have "Broadcast RGB", and somebody has limited it, */
+    bool keeps_range;    /* and it cannot be changed with a mode */
 };
 #define SIM_RENDER_NODE "/dev/dri/renderD128" /* the only one */
 struct sim_gpu {                              /* of all cards */
@@ -142,6 +144,9 @@ const char *sim_incident_name(enum sim_incident what);
 
 /* Draws the current frame in that colour; valid between begin and present. */
 void sim_paint(uint32_t colour);
+/* Only the lower left part of that size. It is visible where the plane enlarges that, and no other,
+ * to the whole mode. */
+void sim_paint_part(uint32_t colour, uint32_t width_px, uint32_t height_px);
 void sim_paint_copy(uint8_t *pixels, uint32_t colour);
 /* True if a connected monitor shows that colour, not covered by an overlay. */
 bool sim_shows(uint32_t colour);

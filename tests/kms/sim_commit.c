@@ -121,7 +121,16 @@ static int check_crtc(const struct sim_card *card, const struct sim_state *next,
     return c->has_mode ? check_mode(&c->mode, test) : 0;
 }
 
-static int check_plane(struct sim_card *card, const struct sim_state *next, int i) {
+/* Whether a primary plane enlarges so much in one direction. */
+static bool may_scale(const struct sim_card *card, int plane, uint64_t from, uint64_t to,
+                      bool test) {
+    const uint64_t src_px = from >> 16;
+    if (src_px == to) return true;
+    if (plane >= SIM_CRTCS || src_px > to || (card->traits.enlarges_never && !test)) return false;
+    return 100 * to <= card->traits.enlarges * src_px;
+}
+
+static int check_plane(struct sim_card *card, const struct sim_state *next, int i, bool test) {
     const struct sim_plane_state *p = &next->planes[i];
     if ((p->fb != 0) != (p->crtc >= 0)) return EINVAL;
     if (p->fb == 0) return 0;
@@ -131,8 +140,9 @@ static int check_plane(struct sim_card *card, const struct sim_state *next, int 
     if (p->src[0] + p->src[2] > (uint64_t)fb->width_px << 16 ||
         p->src[1] + p->src[3] > (uint64_t)fb->height_px << 16)
         return ENOSPC;
-    if (p->src[2] >> 16 != (uint64_t)p->dst[2] || p->src[3] >> 16 != (uint64_t)p->dst[3])
-        return ERANGE; /* no scaling */
+    if (!may_scale(card, i, p->src[2], (uint64_t)p->dst[2], test) ||
+        !may_scale(card, i, p->src[3], (uint64_t)p->dst[3], test))
+        return ERANGE;
     const bool covers = p->dst[0] == 0 && p->dst[1] == 0 && p->dst[2] == mode->hdisplay &&
                         p->dst[3] == mode->vdisplay;
     return i < SIM_CRTCS && !covers ? EINVAL : 0;
@@ -142,7 +152,7 @@ int sim_check(struct sim_card *card, const struct sim_state *next, bool modeset,
     int error = 0;
     for (int i = 0; i < SIM_CRTCS && error == 0; i++)
         error = check_crtc(card, next, i, modeset, test);
-    for (int i = 0; i < SIM_PLANES && error == 0; i++) error = check_plane(card, next, i);
+    for (int i = 0; i < SIM_PLANES && error == 0; i++) error = check_plane(card, next, i, test);
     return error;
 }
 

@@ -177,7 +177,7 @@ static void check_unseen(const struct sim_bo *bo) {
         }
 }
 
-void sim_paint(uint32_t colour) {
+void sim_paint_part(uint32_t colour, uint32_t width_px, uint32_t height_px) {
     struct buffer *b = current ? back_buffer(current) : NULL;
     if (!b) {
         sim_complain("draws without a buffer");
@@ -185,7 +185,10 @@ void sim_paint(uint32_t colour) {
     }
     check_unseen(b->bo);
     b->bo->colour = colour;
+    b->bo->painted[0] = width_px, b->bo->painted[1] = height_px;
 }
+
+void sim_paint(uint32_t colour) { sim_paint_part(colour, 0, 0); }
 
 void sim_paint_copy(uint8_t *pixels, uint32_t colour) {
     for (int i = 0; i < SIM_FILES; i++)

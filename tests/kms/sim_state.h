@@ -48,7 +48,8 @@ enum { SIM_PROP_BASE = 700 };
 struct sim_bo { /* memory */
     int refs;
     uint32_t colour;
-    uint8_t *pixels; /* of a dumb buffer */
+    uint32_t painted[2]; /* width and height, of the lower left; 0: all of it */
+    uint8_t *pixels;     /* of a dumb buffer */
     size_t size;
     uint32_t width_px, height_px;
 };

@@ -69,6 +69,13 @@ static void handle_commit_error(struct gn_kms *k, struct gn_kms_frame *frame, in
         return;
     case GN_FLIP_CHANGED: break;
     }
+    if (frame->part.width_px > 0) { /* whatever the test said: another frame, drawn at full size */
+        k->scaling.can = false;
+        gn_kms_discard(k, frame);
+        k->screen.damaged = true;
+        gn_flip_refused(&k->flip, now_ns);
+        return;
+    }
     k->lit = false;
     if (was_lit) { /* mode or connector changed: retry with a modeset */
         wait_a_frame(k, frame, now_ns);
@@ -80,6 +87,7 @@ static void handle_commit_error(struct gn_kms *k, struct gn_kms_frame *frame, in
 }
 
 void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
+    struct gn_kms_flip flip = {.fb = frame.fb, .part = frame.part, .fence = frame.fence};
     int error;
     if (k->blank) { /* blanking was requested while it was drawn */
         gn_kms_discard(k, &frame);
@@ -88,10 +96,11 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
     if (k->lit) {
         struct gn_kms_ticket *ticket = &k->frames.tickets[k->frames.ticket % GN_KMS_TICKETS];
         *ticket = (struct gn_kms_ticket){k, k->frames.ticket};
-        error = gn_kms_output_flip(&k->output, frame.fb, frame.fence, ticket);
+        flip.user = ticket;
+        error = gn_kms_output_flip(&k->output, &flip);
     } else {
         const drmModeModeInfo *mode = &k->monitor.candidates[k->monitor.mode];
-        error = gn_kms_output_light(&k->output, mode, frame.fb);
+        error = gn_kms_output_light(&k->output, mode, &flip);
     }
     if (error != 0) {
         handle_commit_error(k, &frame, error, now_ns);
@@ -103,6 +112,7 @@ void gn_kms_send(struct gn_kms *k, struct gn_kms_frame frame, int64_t now_ns) {
     } else {
         k->lit = true;
         k->monitor.lit_for = k->monitor.id;
+        k->scaling.part = (struct gn_kms_part){0};
         k->screen.counts.relit++;
         k->flip.no_vblank = gn_kms_output_lacks_vblank(&k->output);
         gn_flip_committed(&k->flip, now_ns);
@@ -156,8 +166,26 @@ bool gn_kms_begin(struct gn_kms *k, int64_t now_ns, struct gn_err *err) {
         k->screen.copy_to = copy->pixels;
         k->screen.copy_stride = copy->stride;
     }
+    k->scaling.fills = k->screen.damaged = false;
     gn_flip_begun(&k->flip, now_ns);
     return true;
+}
+
+/* By a test with the frame that is shown: the first one after a modeset is drawn at full size. */
+bool gn_kms_scale(struct gn_kms *k, uint32_t width_px, uint32_t height_px) {
+    struct gn_kms_scaling *s = &k->scaling;
+    const struct gn_kms_flip flip = {
+        .fb = k->frames.front.fb, .part = {width_px, height_px}, .fence = -1};
+    const bool tested = s->part.width_px == width_px && s->part.height_px == height_px;
+    if (gn_kms_is_copy(k) || !k->lit || !flip.fb) return false;
+    if (!tested) {
+        const int error = gn_kms_output_test(&k->output, &flip);
+        if (error != 0 && gn_flip_error_of(error) != GN_FLIP_CHANGED) return false; /* for now */
+        s->part = flip.part;
+        s->can = error == 0;
+    }
+    s->fills = s->can;
+    return s->can;
 }
 
 void gn_kms_send_drawn(struct gn_kms *k, int64_t now_ns) {
@@ -175,6 +203,7 @@ void gn_kms_send_drawn(struct gn_kms *k, int64_t now_ns) {
         return;
     }
     frame.key = buffer.key;
+    if (k->scaling.fills) frame.part = k->scaling.part;
     const int error = gn_kms_output_fb(&k->output, &buffer, &frame.fb);
     if (error == 0) {
         gn_kms_send(k, frame, now_ns);

@@ -43,6 +43,7 @@ gn_display_proc gn_kms_get_proc(struct gn_kms *kms, const char *name);
 bool gn_kms_step(struct gn_kms *kms, unsigned events, int64_t now_ns, struct gn_err *err);
 bool gn_kms_renew(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 bool gn_kms_begin(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
+bool gn_kms_scale(struct gn_kms *kms, uint32_t width_px, uint32_t height_px);
 bool gn_kms_present(struct gn_kms *kms, int64_t now_ns, struct gn_err *err);
 void gn_kms_lose(struct gn_kms *kms, int64_t now_ns);
 void gn_kms_blank(struct gn_kms *kms, bool on, int64_t now_ns);

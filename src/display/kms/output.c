@@ -277,8 +277,21 @@ static void disable_connectors(struct request *r, bool ours) {
     if (all) o->drm->ModeFreeResources(all);
 }
 
-static int commit_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb,
-                        uint32_t blob) {
+/* GL has row 0 at the bottom: a lower left part ends with the framebuffer's last row. */
+static void add_picture(struct request *r, const drmModeModeInfo *mode,
+                        const struct gn_kms_flip *flip) {
+    const uint32_t *p = r->o->plane_props, plane = r->o->plane;
+    const uint64_t width = flip->part.width_px ? flip->part.width_px : mode->hdisplay,
+                   height = flip->part.height_px ? flip->part.height_px : mode->vdisplay;
+    add_property(r, plane, p[GN_PROP_PLANE_FB], flip->fb);
+    add_property(r, plane, p[GN_PROP_PLANE_SRC_X], 0);
+    add_property(r, plane, p[GN_PROP_PLANE_SRC_Y], (mode->vdisplay - height) << 16);
+    add_property(r, plane, p[GN_PROP_PLANE_SRC_W], width << 16);
+    add_property(r, plane, p[GN_PROP_PLANE_SRC_H], height << 16);
+}
+
+static int commit_light(struct gn_kms_output *o, const drmModeModeInfo *mode,
+                        const struct gn_kms_flip *flip, uint32_t blob) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
     disable_others(&r);
@@ -291,12 +304,8 @@ static int commit_light(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_MODE], blob);
     add_property(&r, o->crtc, o->crtc_props[GN_PROP_CRTC_ACTIVE], 1);
     const uint32_t *p = o->plane_props;
-    add_property(&r, o->plane, p[GN_PROP_PLANE_FB], fb);
+    add_picture(&r, mode, flip);
     add_property(&r, o->plane, p[GN_PROP_PLANE_CRTC], o->crtc);
-    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_X], 0);
-    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_Y], 0);
-    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_W], (uint64_t)mode->hdisplay << 16);
-    add_property(&r, o->plane, p[GN_PROP_PLANE_SRC_H], (uint64_t)mode->vdisplay << 16);
     add_property(&r, o->plane, p[GN_PROP_PLANE_X], 0);
     add_property(&r, o->plane, p[GN_PROP_PLANE_Y], 0);
     add_property(&r, o->plane, p[GN_PROP_PLANE_W], mode->hdisplay);
@@ -370,17 +379,18 @@ static int send_range(struct gn_kms_output *o, uint64_t value) {
 
 /* ---- modeset ---- */
 
-int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, uint32_t fb) {
+int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode,
+                        const struct gn_kms_flip *flip) {
     int error = wake_connector(o);
     if (error != 0) return error;
     if (o->atomic) {
         uint32_t blob = 0;
         error = error_of(o->drm->ModeCreatePropertyBlob(o->fd, mode, sizeof *mode, &blob));
         if (error != 0) return error;
-        error = commit_light(o, mode, fb, blob);
+        error = commit_light(o, mode, flip, blob);
         if (error == EINVAL && o->range.is_set) { /* the picture matters more */
             o->range.is_set = false;
-            error = commit_light(o, mode, fb, blob);
+            error = commit_light(o, mode, flip, blob);
             o->range.is_set = error != 0; /* that was not the reason */
             o->range.lacks = error == 0;
         }
@@ -389,23 +399,32 @@ int gn_kms_output_light(struct gn_kms_output *o, const drmModeModeInfo *mode, ui
         drmModeModeInfo copy = *mode;
         o->drm->ModeSetCursor(o->fd, o->crtc, 0, 0, 0);
         if (o->range.is_set) send_range(o, o->range.value); /* the picture matters more */
-        error = error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, fb, 0, 0, &o->connector, 1, &copy));
+        error =
+            error_of(o->drm->ModeSetCrtc(o->fd, o->crtc, flip->fb, 0, 0, &o->connector, 1, &copy));
     }
     if (error != 0) return error;
     o->mode = *mode;
-    remove_old_fbs(o, fb);
+    remove_old_fbs(o, flip->fb);
     return 0;
 }
 
-int gn_kms_output_flip(struct gn_kms_output *o, uint32_t fb, int fence, void *user) {
-    if (!o->atomic)
-        return error_of(o->drm->ModePageFlip(o->fd, o->crtc, fb, DRM_MODE_PAGE_FLIP_EVENT, user));
+static int commit_flip(struct gn_kms_output *o, const struct gn_kms_flip *flip, uint32_t flags) {
     struct request r = {.list = o->drm->ModeAtomicAlloc(), .o = o};
     if (!r.list) return ENOMEM;
-    add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FB], fb);
-    if (fence >= 0)
-        add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FENCE], (uint64_t)fence);
-    return end_request(&r, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT, user);
+    add_picture(&r, &o->mode, flip);
+    if (flip->fence >= 0)
+        add_property(&r, o->plane, o->plane_props[GN_PROP_PLANE_FENCE], (uint64_t)flip->fence);
+    return end_request(&r, flags, flip->user);
+}
+
+int gn_kms_output_flip(struct gn_kms_output *o, const struct gn_kms_flip *flip) {
+    if (o->atomic) return commit_flip(o, flip, DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT);
+    return error_of(
+        o->drm->ModePageFlip(o->fd, o->crtc, flip->fb, DRM_MODE_PAGE_FLIP_EVENT, flip->user));
+}
+
+int gn_kms_output_test(struct gn_kms_output *o, const struct gn_kms_flip *flip) {
+    return o->atomic ? commit_flip(o, flip, DRM_MODE_ATOMIC_TEST_ONLY) : ENOSYS;
 }
 
 int gn_kms_output_dark(struct gn_kms_output *o) {

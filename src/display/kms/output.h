@@ -92,10 +92,22 @@ int gn_kms_output_fb(struct gn_kms_output *output, const struct gn_buffer *buffe
  * would switch the CRTC off. */
 void gn_kms_output_orphan_fbs(struct gn_kms_output *output);
 
-/* Sets a mode, testing it first; blocks. */
-int gn_kms_output_light(struct gn_kms_output *output, const drmModeModeInfo *mode, uint32_t fb);
-/* Non-blocking; completion is an event with `user`. Borrows the fence; -1: none. */
-int gn_kms_output_flip(struct gn_kms_output *output, uint32_t fb, int fence, void *user);
+struct gn_kms_part { /* of a framebuffer, its lower left; 0 x 0: all */
+    uint32_t width_px, height_px;
+};
+struct gn_kms_flip { /* what is shown next */
+    uint32_t fb;
+    struct gn_kms_part part; /* scaled to the mode's size; atomic only */
+    int fence;               /* borrowed; -1: none */
+    void *user;              /* of the event when it is complete; NULL: none comes */
+};
+/* Sets a mode, testing it first; blocks. No fence, no event. */
+int gn_kms_output_light(struct gn_kms_output *output, const drmModeModeInfo *mode,
+                        const struct gn_kms_flip *flip);
+/* Non-blocking. */
+int gn_kms_output_flip(struct gn_kms_output *output, const struct gn_kms_flip *flip);
+/* Whether that could be flipped to; changes nothing. */
+int gn_kms_output_test(struct gn_kms_output *output, const struct gn_kms_flip *flip);
 /* Switches the CRTC off; blocks. */
 int gn_kms_output_dark(struct gn_kms_output *output);
 /* Switches the monitor off, keeping mode and framebuffer; blocks. */

@@ -152,6 +152,11 @@ static bool kms_renew(struct gn_display *display, int64_t now_ns, struct gn_err 
     return update_screen(display, gn_kms_renew(s->kms, now_ns, err), now_ns);
 }
 
+static bool kms_scale(struct gn_display *display, uint32_t width_px, uint32_t height_px) {
+    const struct kms_screen *s = display->state;
+    return gn_kms_scale(s->kms, width_px, height_px);
+}
+
 static bool kms_begin(struct gn_display *display, int64_t now_ns, struct gn_err *err) {
     struct kms_screen *s = display->state;
     return update_screen(display, gn_kms_begin(s->kms, now_ns, err), now_ns);
@@ -210,6 +215,7 @@ static const struct gn_screen_ops kms_screen_ops = {
     .dispatch = kms_dispatch,
     .renew = kms_renew,
     .begin = kms_begin,
+    .scale = kms_scale,
     .present = kms_present,
     .lose = kms_lose,
     .blank = kms_blank,

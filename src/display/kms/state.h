@@ -17,6 +17,12 @@ struct gn_kms_frame { /* a buffer with its framebuffer; fb 0: none */
     void *key;        /* of its buffer */
     uint32_t fb;
     int fence; /* owned; -1: none */
+    struct gn_kms_part part;
+};
+struct gn_kms_scaling {      /* whether the plane scales such a part */
+    struct gn_kms_part part; /* that was asked for last; 0 x 0: none since the last modeset */
+    bool can;                /* scale it */
+    bool fills;              /* the frame that is being drawn fills only that */
 };
 /* User data of flip events. The ticket number changes when a flip is lost, so that its late event
  * is not taken for that of a later flip. */
@@ -85,6 +91,7 @@ struct gn_kms {
     bool lit; /* the CRTC shows the last flipped frame; false: needs a modeset. screen.lit is
                  more: see publish_state() */
     struct gn_kms_frames frames;
+    struct gn_kms_scaling scaling;
     struct gn_flip flip;
     int losses; /* context losses with a monitor connected since the last visible frame */
     struct gn_kms_due due;

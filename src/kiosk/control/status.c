@@ -16,10 +16,10 @@
 struct status {
     const struct gn_part_host *host;
     const char *version, *mode, *scene, *plays;
-    const char *backend, *range, *config, *error, *problem;
+    const char *backend, *range, *scaled_by, *config, *error, *problem;
     int pid, camera, median_frames, worst_frames, pointers, fps;
     bool paused, blanked, info, waits;
-    double uptime_s, median_ms, worst_ms;
+    double uptime_s, median_ms, worst_ms, scale;
     uint64_t drawn, seen;
     struct gn_screen screen;
     json_t *modes, *lights;
@@ -85,6 +85,8 @@ static const void *kiosk_status(void *part) {
         .backend = display->ops ? display->ops->name : "",
         .screen = display->screen,
         .range = ranges[display->screen.range],
+        .scale = gn_show_scale(&s->screen),
+        .scaled_by = s->screen.context.scaled_by ? s->screen.context.scaled_by : "none",
         .drawn = s->counts.frames,
         .seen = latency.count,
         .median_ms = (double)latency.median.ns * 1e-6,
@@ -124,6 +126,8 @@ static const struct gn_metric kiosk_metrics[] = {
     METRIC(screen.width_px, "screen.width", "px", "of the screen"),
     METRIC(screen.height_px, "screen.height", "px", "of the screen"),
     METRIC(screen.rotate_deg, "screen.rotate", "degrees", "clockwise"),
+    METRIC(scale, "screen.scale", "", "of the scene's width and height"),
+    METRIC(scaled_by, "screen.scaled_by", "", "what makes it as large as the screen"),
     METRIC(range, "screen.range", "", "levels of the signal"),
     METRIC(drawn, "frames.drawn", "frames", "by the GPU"),
     METRIC(screen.counts.shown, "frames.shown", "frames", "flips that completed, repeats included"),
