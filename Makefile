@@ -5,6 +5,8 @@ CONFIG  ?= release
 O       ?= build
 PREFIX  ?= /usr/local
 DATE     = $(shell sed -n 's/^\#\# $(VERSION) - //p' board/CHANGELOG.md)
+# where the packages will be for everybody; nobody has published them yet
+REPOSITORY ?= https://gnomon.example/debian
 $(if $(word 2,$(O)),$(error O= is one folder without a space in its name, not "$(O)"))
 HOSTCC  ?= cc
 SUB      = $(MAKE) --no-print-directory \
@@ -16,7 +18,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests programs completion dist deb run check accept full check-deb check-gpu check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet \
+.PHONY: all no-import tests programs completion dist deb release repository image run check accept full check-deb check-release check-image check-gpu check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet \
         lessons book readme board-table options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
@@ -57,6 +59,9 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #:                 with CROSS= those that building for it needs
 #: make lint       clang-tidy; make syntax: clang for its warnings; make format: clang-format, in place
 #: make install    DESTDIR= PREFIX=/usr/local; make uninstall takes it away again
+#: make deb        Debian packages of the last commit; make release: those of 12 and 13 for amd64 and arm64, notes and checksums;
+#:                 make image: a card that starts with gnomon (board/image); make check-image starts it in QEMU
+#:                 make repository KEY=ID: of these, an apt repository; make check-release: both, twice, and installed from
 #: make tests, man, compile_commands.json, clean
 #: CONFIG=release|debug|asan|cov  CROSS=aarch64-linux-gnu SYSROOT=DIR  CC=clang  WERROR=1  V=1
 help:
@@ -78,14 +83,14 @@ dist:
 
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
 MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
-TABLED      := $(filter-out check-deb check-gpu check-gpus check-modelviewer check-cycles check-tangents,$(filter check check-% accept full,$(GOALS)))
+TABLED      := $(filter-out check-deb check-release check-image check-gpu check-gpus check-modelviewer check-cycles check-tangents,$(filter check check-% accept full,$(GOALS)))
 IN_test     := $(TABLED) check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet book readme
 IN_board    := $(MACHINES)
 IN_board-arm64 := $(MACHINES)
 IN_gpus     := check-gpus accept full
-IN_deb      := deb check-deb check-service full
-IN_deb-test := check-deb check-service full
-BOOT := $(if $(READY),,$(filter run deb lessons check-deb check-gpus $(IN_test),$(GOALS)))
+IN_deb      := deb release repository check-deb check-release check-service full
+IN_deb-test := check-deb check-release check-service full
+BOOT := $(if $(READY),,$(filter run deb release repository lessons check-deb check-release check-gpus $(IN_test),$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
 	@sh board/deps.sh build run $(foreach s,test board board-arm64 gpus deb deb-test,$(if $(filter $@,$(IN_$s)),$s))
@@ -437,6 +442,16 @@ install: all
 	    sh board/install.sh install
 deb: dist
 	@O='$(O)' VERSION='$(VERSION)' sh board/deb.sh
+release: dist
+	@O='$(O)' VERSION='$(VERSION)' TAG='$(TAG)' sh board/release.sh
+repository:
+	@REPOSITORY='$(REPOSITORY)' KEY='$(KEY)' sh board/repository.sh $(O)/gnomon-$(VERSION) $(O)/repository
+image: all
+	@O='$(O)' VERSION='$(VERSION)' sh board/image/build.sh
+check-image: all
+	@O='$(O)' VERSION='$(VERSION)' tests/board/image.sh
+check-release:
+	@O='$(O)' VERSION='$(VERSION)' REPOSITORY='$(REPOSITORY)' tests/board/release.sh
 check-deb: dist
 	@O='$(O)' VERSION='$(VERSION)' tests/board/packages.sh
 

@@ -1,7 +1,8 @@
 #!/bin/sh
 # deb.sh: source and binary packages of the last commit into $O/deb/SUITE. Of this machine's Debian and
 # architecture they are built here; SUITE=trixie and ARCH=arm64 (cross-built) in a root of Debian's
-# packages, which is made once and kept in the user's cache (root=); that needs mmdebstrap, and root.
+# packages, which is made once and kept in the user's cache (root=); that needs mmdebstrap, and root. IN_ROOT=1: all of them there,
+# so that nothing of this machine is in them.
 set -eu
 umask 022
 : "${O:=build}" "${VERSION:?}"
@@ -54,7 +55,7 @@ changelog > "$source/debian/changelog"
 found=$(sed -n '1s/.*(\(.*\)).*/\1/p' "$source/debian/changelog")
 [ "$found" = "$version" ] || { echo "deb.sh: CHANGELOG.md begins with $found, and the Makefile's version is $version" >&2 && exit 1; }
 
-if [ "$suite-$arch" = "$codename-$own" ]; then
+if [ "$suite-$arch${IN_ROOT:-}" = "$codename-$own" ]; then
     (cd "$source" && env -u O -u VERSION dpkg-buildpackage -us -uc -tc) > "$out/log" 2>&1 ||
         { tail -n 30 "$out/log" >&2 && echo "deb.sh: dpkg-buildpackage failed: $out/log" >&2 && exit 1; }
 else

@@ -14,7 +14,8 @@ test="clang clang-format clang-tidy lld groff-base xvfb $test_libraries"
 optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libzstd-dev libmeshoptimizer-dev libdraco-dev'
 optional_compiler=g++ # with libdraco, of gnomon-import
 optional_run='fonts-dejavu-core' # for those texts
-optional_test='libosmesa6-dev' # not in every Debian
+repository='apt-utils gpg gpg-agent'
+optional_test="libosmesa6-dev $repository" # not in every Debian
 # fetches libraries for tests/angle, which are for a PC alone; node brings its own where it is not Debian's
 [ "$(uname -m)" != x86_64 ] || command -v npm > /dev/null || optional_npm=npm
 # without them the tests in virtual machines are skipped; those run on a PC alone
@@ -62,7 +63,7 @@ for set in "$@"; do
     test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-} tmux" ;; # tmux: a terminal that scripts can type in
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
-    deb) wanted="$wanted $deb" extra="$extra $optional_deb" ;;
+    deb) wanted="$wanted $deb" extra="$extra $optional_deb $repository" ;;
     deb-test) wanted="$wanted $deb_test" ;;
     gpus) [ "$own" != amd64 ] || extra="$extra $optional_gpus" ;;
     cross)
