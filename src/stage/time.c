@@ -132,8 +132,9 @@ double gn_stage_scale(struct gn_stage *stage, const struct gn_cost_gpu *gpu, dou
     opts.output.scale = 0.5f;
     opts.output.scaled_later = false; /* texts and fades want it scaled before */
     const bool ok = gn_stage_time_build(&time, stage, &opts, gpu, NULL, &err);
-    for (uint32_t i = 0; ok && i < time.cost.plan->pass_count; i++) {
-        const struct gn_pass *pass = &time.cost.plan->passes[i];
+    const struct gn_plan *plan = ok ? time.cost.plan : NULL;
+    for (uint32_t i = 0; plan && i < plan->pass_count; i++) {
+        const struct gn_pass *pass = &plan->passes[i];
         const struct gn_pass_cost *cost = &time.cost.passes[i];
         if (time.when[i] == GN_COST_KEPT) continue;
         if (pass->kind != GN_PASS_PICTURE)

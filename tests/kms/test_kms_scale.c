@@ -132,6 +132,13 @@ static void test_refused_after_the_test(void **state) {
     assert_int_equal(client_screen(&c)->counts.relit, 1);
     assert_int_equal(client_screen(&c)->width_px, 96);
     expect_frames(10, false);
+    client_leave_console(&c); /* what refused may have been of that moment */
+    client_run(&c, SIM_S);
+    client_enter_console(&c);
+    client_frames(&c, 3);
+    assert_int_equal(c.scaled, 2);
+    expect_right();
+    expect_frames(10, false);
     end(&liar);
 }
 
