@@ -57,6 +57,26 @@ sed -n '/^```ini/,/^```/p' README.md | grep -v '^```' > "$folder/kiosk.ini"
 cp assets/sundial.glb "$folder"
 "$gnomon" show --check "$folder/kiosk.ini" > "$folder/out" 2> "$folder/err" < /dev/null || complain "README's kiosk.ini: $(cat "$folder/out" "$folder/err")"
 
+# ---- tolerances: "share file..", of the table and of the code; shaders have squares of theirs -----
+awk -F '[|]' '/^## /{ on = /Tolerances/ } on && /^\| `/ {
+        n = split($2, name, "`"); files = ""
+        for (i = 2; i <= n; i += 2) {
+            if (name[i] ~ "/") { folder = name[i]; sub("/.*", "/", folder) } else name[i] = folder name[i]
+            files = files " src/" name[i]
+        }
+        for (rest = $4; match(rest, /[0-9]e-[0-9]+/); rest = substr(rest, RSTART + RLENGTH)) print substr(rest, RSTART, RLENGTH) files
+    }' src/truth/README.md | grep -v ' src/lib/' > "$folder/shares"
+[ -s "$folder/shares" ] || complain 'src/truth/README.md has no table of tolerances'
+while read -r share files; do
+    # shellcheck disable=SC2086
+    grep -qE "(^|[^0-9])${share}([^0-9]|$)" $files || complain "src/truth/README.md: the tolerance $share is not in $files"
+done < "$folder/shares"
+grep -oE '[0-9]e-[0-9]+f? \* [a-z_>(.-]*(size|reach|diagonal|length_of|highest)' src/truth/*.c src/shadow/*.c src/scene/*.c src/frame/*.c |
+    sed -E 's/f? \*.*//; s/:/ /' | sort -u | while read -r file share; do
+    grep -qE "^$share .*$file( |$)" "$folder/shares" || echo "$file: $share"
+done > "$folder/unlisted"
+[ ! -s "$folder/unlisted" ] || complain "tolerances that are not in src/truth/README.md: $(tr '\n' ' ' < "$folder/unlisted")"
+
 # ---- what is generated, and the manuals ----------------------------------------------------------
 out=$(dirname "${BUILD:-build/release}")
 sh tests/options_page.sh "$out/host/man" | cmp - src/options/README.md || complain 'src/options/README.md is old: make options-page'
