@@ -2,6 +2,7 @@
  * this picture's pixels. By this camera alone, without memory, so that equal cameras have equal
  * pictures; no change of level is seen, as each is within the same bound of the whole mesh. Maps
  * have whole meshes: they stay as they are while only the camera moves. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "blocks.glsl"

@@ -1,5 +1,6 @@
 /* How far a level is from its mesh: of samples of the vertices that it lacks, the nearest place on
  * it; then what the two show there, in each of some poses. */
+#include <cglm/cglm.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
