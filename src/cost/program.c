@@ -14,8 +14,10 @@ struct row {
     struct gn_cost_words words;
     int kind_length; /* of the name's first word */
 };
+struct kind;
 struct gn_cost_table {
     struct row *rows;
+    struct kind **kinds; /* by the first row of a kind and by figure, made when first wanted */
     int count, room;
     struct gn_cost_vocabulary vocabulary;
 };
@@ -60,15 +62,8 @@ struct gn_cost_table *gn_cost_table_create(const char *text, const char *gpu) {
     struct gn_cost_table *table = gn_xalloc(1, sizeof *table);
     for (const char *line = strchr(text, '\n'); line && line[1]; line = strchr(line + 1, '\n'))
         add_row(table, line + 1, column);
+    table->kinds = gn_xalloc((size_t)FIGURES * ((size_t)table->count + 1), sizeof(struct kind *));
     return table;
-}
-
-void gn_cost_table_destroy(struct gn_cost_table *table) {
-    for (int i = 0; table && i < table->count; i++) free(table->rows[i].name);
-    if (!table) return;
-    free(table->rows);
-    free(table->vocabulary.words);
-    free(table);
 }
 
 int gn_cost_table_count(const struct gn_cost_table *table) { return table->count; }
@@ -121,13 +116,28 @@ struct kind { /* the rows of a program's kind that know a figure */
     int count;
 };
 
-static void fit_kind(const struct gn_cost_table *table, const char *name, int without, int figure,
-                     struct kind *kind) {
+static void destroy_kind(struct kind *kind) {
+    if (kind) free(kind->rows);
+    free(kind);
+}
+
+void gn_cost_table_destroy(struct gn_cost_table *table) {
+    for (int i = 0; table && i < table->count; i++) free(table->rows[i].name);
+    if (!table) return;
+    for (int i = 0; i < FIGURES * (table->count + 1); i++) destroy_kind(table->kinds[i]);
+    free(table->kinds);
+    free(table->rows);
+    free(table->vocabulary.words);
+    free(table);
+}
+
+static struct kind *fit_kind(const struct gn_cost_table *table, const char *name, int without,
+                             int figure) {
+    struct kind *kind = gn_xalloc(1, sizeof *kind);
     const size_t room = (size_t)table->count + 1;
     struct gn_cost_words *words = gn_xalloc(room, sizeof *words);
     double *y = gn_xalloc(room, sizeof *y);
     kind->rows = gn_xalloc(room, sizeof(const struct row *));
-    kind->count = 0;
     for (int i = 0; i < table->count; i++) {
         const struct row *row = &table->rows[i];
         if (i == without || !is_of_kind(row, name) || row->figures[figure] < 0) continue;
@@ -142,6 +152,17 @@ static void fit_kind(const struct gn_cost_table *table, const char *name, int wi
         kind->weights[w] += usual_cost(table->vocabulary.words[w], figure);
     free(words);
     free(y);
+    return kind;
+}
+
+/* The kind of all its rows, which is fitted once. The table owns it. */
+static const struct kind *find_kind(const struct gn_cost_table *table, const char *name,
+                                    int figure) {
+    int first = 0;
+    while (first < table->count && !is_of_kind(&table->rows[first], name)) first++;
+    struct kind **kind = &table->kinds[FIGURES * first + figure];
+    if (!*kind) *kind = fit_kind(table, name, -1, figure);
+    return *kind;
 }
 
 /* The figure of the row that differs least from the words, and what the difference costs. */
@@ -181,10 +202,10 @@ bool gn_cost_table_find(const struct gn_cost_table *table, const char *name, int
                                     .fetches_estimated = values[FETCHES] < 0};
     for (int figure = 0; figure < FIGURES; figure++) {
         if (values[figure] >= 0) continue;
-        struct kind kind = {0};
-        fit_kind(table, name, without, figure, &kind);
-        values[figure] = estimate(&kind, &words, table->vocabulary.count, figure, &nearest[figure]);
-        free(kind.rows);
+        struct kind *rest = without < 0 ? NULL : fit_kind(table, name, without, figure);
+        values[figure] = estimate(rest ? rest : find_kind(table, name, figure), &words,
+                                  table->vocabulary.count, figure, &nearest[figure]);
+        destroy_kind(rest);
     }
     out->fragment = values[FRAGMENT];
     out->vertex = values[VERTEX];

@@ -29,7 +29,8 @@ struct gn_program_cost {
 /* name: as gn_gl_key_text() writes it. What is not in the table costs as much as the nearest one of
  * its kind that is, and what words of the name cost that only one of them has: a least-squares fit
  * of all programs of the kind. False: the table has no program of the kind. `without`: a row that
- * is taken as if it were not there, for tests; or -1. */
+ * is taken as if it were not there, for tests; or -1. Fits are kept in the table: not for two
+ * threads at a time. */
 bool gn_cost_table_find(const struct gn_cost_table *table, const char *name, int without,
                         struct gn_program_cost *out);
 
