@@ -9,7 +9,7 @@ libraries='libc6-dev libjansson-dev libpng-dev zlib1g-dev libturbojpeg0-dev libi
 build="gcc make pkgconf $libraries"
 run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
 test_libraries='libcmocka-dev libx11-dev'
-test="clang clang-format clang-tidy groff-base xvfb $test_libraries"
+test="clang clang-format clang-tidy lld groff-base xvfb $test_libraries"
 # for gnomon-import and its sandbox, a window, texts on the picture, textures, meshes
 optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libzstd-dev libmeshoptimizer-dev libdraco-dev'
 optional_compiler=g++ # with libdraco, of gnomon-import
