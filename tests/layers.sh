@@ -64,6 +64,7 @@ FNR == 1 { whole_kiosk = 0 }
 /^const struct gn_part gn_part_/ && whole_kiosk { complain("a part has struct gn_part_host, not the whole kiosk") }
 /^[ \t]*#[ \t]*include[ \t]*</ {
     split($0, angled, /[<>]/)
+    if (FILENAME ~ /[.]h$/ && angled[2] ~ /^cglm\/cglm/) complain("a header takes <cglm/types.h>: all of cglm is half of what most files would read")
     for (key in foreign)
         if (index(angled[2], key) == 1 && !is_in(room, foreign[key]))
             complain("<" angled[2] "> belongs to " foreign[key])

@@ -1,5 +1,6 @@
 #include "cli/bench_move.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 

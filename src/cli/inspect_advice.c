@@ -2,6 +2,7 @@
  * scene from being shown. */
 #include "cli/inspect.h"
 
+#include <cglm/cglm.h>
 #include <string.h>
 
 #include "cli/units.h"

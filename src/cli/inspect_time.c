@@ -1,5 +1,6 @@
 #include "cli/inspect_time.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* The environment as the background: one triangle at the far end of depth, after what is opaque and
  * before what is blended over it. It has the picture's tone, since it is light as bright as in
  * reflections. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "core/hash.h"

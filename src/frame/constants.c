@@ -1,4 +1,5 @@
 /* The constants that shaders read of lights and their shadows (shaders_es/blocks.glsl). */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* The draws of a pass. Items are sorted by batch, so a run of them becomes one instanced call (two
  * when some are mirrored), roughly nearest first. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

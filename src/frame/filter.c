@@ -1,6 +1,7 @@
 /* The passes that make moments of a map (shadow/moments.h): a triangle over the target, or over
  * each tile, per step of the technique's filter. As the map's own passes, they are skipped while
  * the light's texture is up to date. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,6 +3,7 @@
  * of the shadows of points of the lamp, as of planar shadows; a filter step makes alpha of that and
  * of the floor's occlusion; the floor is drawn with one lookup. The light's own map has the model
  * as its only receiver then, and finer texels. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* --camera light:NAME: the scene as a light sees it. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "frame/private.h"

@@ -1,6 +1,7 @@
 /* The passes that draw the shadow maps: one per map, or per tile. Of a directional light's map that
  * follows the camera one per page, and one that copies the pages (shadow/pages.h); so, too, of each
  * cascade. */
+#include <cglm/cglm.h>
 #include <stdio.h>
 
 #include "core/text.h"

@@ -1,5 +1,6 @@
 #include "frame/orbit.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 static const float HIGHEST_RAD = 1.56f; /* elevation over the point looked at: not quite the pole */

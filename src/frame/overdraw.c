@@ -3,6 +3,7 @@
  * its nearest point, and at most as often as they lie on one another (gn_geometry.layers). Only
  * where that is over the limit are the triangles of posed meshes looked at, since joints may spread
  * what lies together at rest. Instances over the limit are left out, the farthest first. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 /* Optional overlays: light gizmos, and shadow maps as panels. Vertices are generated from
  * gl_VertexID. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

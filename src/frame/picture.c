@@ -2,6 +2,7 @@
  * with the first group of them, and each other group is added to it: the same surfaces at the same
  * depth, in linear light, within the bounds of its lights on the screen. Blended items come last,
  * farthest first, each followed by what is added to it: what lies before it must dim that, too. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,6 +5,7 @@
  * sample shows one shaded value: nothing is blended. Passes are limited to the rectangle where a
  * shadow, or a set of them, can be. A group of lights that is added has marks of its own, and its
  * sets begin with the one of no shadow. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 #include "kiosk/still.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 

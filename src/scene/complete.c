@@ -1,6 +1,7 @@
 /* Completes a scene: bounds, the plane, a key light and a camera if it has none. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "scene/deform.h"

@@ -1,5 +1,7 @@
 #include "scene/exact.h"
 
+#include <cglm/cglm.h>
+
 void gn_node_local(const struct gn_node *node, mat4 parent_from_node) {
     if (node->has_matrix) {
         glm_mat4_copy((vec4 *)node->matrix, parent_from_node);

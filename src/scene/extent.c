@@ -7,6 +7,7 @@
  * the scene: LOOKS in all. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

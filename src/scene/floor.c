@@ -1,6 +1,7 @@
 /* The shadow catcher: an unseen floor under a model that has none. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "scene/exact.h"

@@ -8,6 +8,7 @@
  * sin(e)^2. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

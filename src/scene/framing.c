@@ -2,6 +2,7 @@
  * two opposite planes its place on one axis and its distance. */
 #include "scene/framing.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 static const float FILLED = .92f; /* of half of the picture */

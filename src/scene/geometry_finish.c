@@ -2,6 +2,7 @@
  * normals, bounds, and whether it is flat. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

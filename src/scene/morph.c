@@ -1,6 +1,7 @@
 /* Targets of a geometry: what each adds to positions, normals and tangents of its vertices. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>

@@ -3,6 +3,7 @@
  * something casts a shadow. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

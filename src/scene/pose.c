@@ -1,5 +1,6 @@
 #include "scene/pose.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

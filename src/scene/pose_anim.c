@@ -1,6 +1,7 @@
 /* The value of an animation channel at a time: glTF 2.0, appendix C. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <string.h>
 
 /* Spherical interpolation of quaternions of any length, along the shorter way; in doubles, since a

@@ -1,4 +1,5 @@
 /* The first surface on a line of sight, without a tree: for one ray now and then. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "scene/pose.h"

@@ -4,7 +4,7 @@
 #ifndef GN_SCENE_SCENE_H
 #define GN_SCENE_SCENE_H
 
-#include <cglm/cglm.h>
+#include <cglm/types.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,7 @@
 /* Joints and weights of vertices, and what of a mesh each joint moves. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>

@@ -7,6 +7,7 @@
  * the faces' du directions in the vertex's plane, weighted by the angle of the corner. A face whose
  * coordinates span no area joins any group but adds nothing; a face with equal positions takes what
  * others have at its vertices. A vertex in several groups becomes several. */
+#include <cglm/cglm.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

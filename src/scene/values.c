@@ -1,5 +1,6 @@
 #include "scene/values.h"
 
+#include <cglm/cglm.h>
 #include <stdlib.h>
 #include <string.h>
 

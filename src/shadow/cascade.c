@@ -1,5 +1,6 @@
 #include "shadow/cascade.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "shadow/private.h"

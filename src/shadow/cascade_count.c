@@ -1,4 +1,5 @@
 /* How many cascades: whether there can be any, and how sharp a map is with so many. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "shadow/cascade.h"

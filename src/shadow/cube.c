@@ -1,4 +1,5 @@
 /* Six tiles, of a point light. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "shadow/private.h"

@@ -1,5 +1,6 @@
 /* Distances along the view between which a directional light's shadows are seen: the range of the
  * cascades. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "shadow/private.h"

@@ -1,6 +1,7 @@
 #include "shadow/fit.h"
 #include "shadow/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 void gn_eye_build(struct gn_eye *eye, mat4 clip_from_world) {

@@ -2,6 +2,7 @@
 #include "shadow/fit.h"
 
 #include <assert.h>
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "shadow/cascade.h"

@@ -1,6 +1,7 @@
 /* The regions that items cover in a light's plane, and the parts of them that the eye sees. Both
  * are kept from frame to frame, so that what stands still is measured once. gn_fitter_within()
  * measures anew each time; it is called for casters that reach beyond what is seen. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

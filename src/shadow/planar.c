@@ -6,6 +6,7 @@
  * plane or lies in it does not shadow it at the contact. */
 #include "shadow/planar.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

@@ -4,6 +4,7 @@
  * clipped by the body's planes. */
 #include "shadow/reach.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "shadow/private.h"

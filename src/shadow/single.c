@@ -1,4 +1,5 @@
 /* One tile, of a directional light or a spot: the map is a window in plane coordinates. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "shadow/private.h"

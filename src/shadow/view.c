@@ -1,5 +1,6 @@
 /* Shared by all ways of fitting: which items cast and receive, the light's frame, snapping to whole
  * texels, the hash of a map's content. */
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "core/hash.h"

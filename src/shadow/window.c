@@ -6,6 +6,7 @@
  * out: it shadows nothing, and what is not in the map can neither shadow itself nor cost
  * resolution. What lies beyond the light's range is left out too: nothing is lit there, and it is
  * in front of nothing that is. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 #include "stage/environment.h"
 
+#include <cglm/cglm.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 #include "stage/lights.h"
 
 #include <assert.h>
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

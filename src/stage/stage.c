@@ -1,5 +1,6 @@
 #include "stage/stage.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

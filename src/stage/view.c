@@ -1,5 +1,6 @@
 #include "stage/view.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 #include "truth/occlusion.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 

@@ -2,6 +2,7 @@
  * fitted to that by least squares. So nothing is asked of places inside of bodies, both sides of a
  * thin wall have values of their own in the same texels, and no look-up needs an offset. After
  * Kavan, Bargteil, Sloan, "Least Squares Vertex Baking" (2011), in a volume. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <pthread.h>
 #include <sched.h>

@@ -1,5 +1,6 @@
 #include "drawn.h"
 
+#include <cglm/cglm.h>
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 #include "image/occlusion.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

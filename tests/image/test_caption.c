@@ -1,5 +1,6 @@
 /* Captions: each pixel is what the run says, by blending worked out in double precision, and the
  * rest of the picture is as it was. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

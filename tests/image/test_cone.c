@@ -1,6 +1,7 @@
 /* cone against truth, beside pcss, with the taps that both take by themselves: whole scenes, thin
  * blockers over low ones, feet of walls, and how many pixels take more than one read. The figures
  * are in src/shadow/README.md; test_penumbra has the formats. GN_FULL=1: all scenes. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* More lights than one pass takes: N lights of an Nth of the strength are one light, whatever
  * passes they fall in; and what many lights cost when nothing, or one of them, changes. */
+#include <cglm/cglm.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* A directional map under a moving eye: shifted back by whole texels, it is the same map, bit for
  * bit. And what it covers is what rays along the light's direction hit: it is where it should be.
  */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* Filtered maps: how much light two casters, one behind the other, let through where there is none;
  * that contacts are dark; that no texel is ever anything but a number; and that a still scene is
  * filtered once. GN_FULL=1: every storage, and a thousand frames. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* Marks of lights and panels of maps: what they show is true, and the picture under them is as it
  * was. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

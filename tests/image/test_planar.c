@@ -1,5 +1,6 @@
 /* Planar shadows, by a mask and by the stencil: against ray-traced truth on their plane, with every
  * kind of light and whichever way the plane looks; and what must hold to the last pixel. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* The oracle against what can be written down: boxes by intervals, disks by segments of a circle,
  * holes by arithmetic. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 /* Point lights: no seams between the tiles of their maps. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* Planar shadows of lamps that have a size: penumbrae against ray-traced truth, and how points of
  * the lamp are gathered from frame to frame. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

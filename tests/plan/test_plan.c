@@ -1,5 +1,6 @@
 /* Plans as text against goldens, and what must hold between plans: what is drawn again, and when. A
  * change of rendering is reviewed as the difference of a golden: GN_UPDATE=1 writes them anew. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,5 @@
 /* Plans with options of single lights, and as a light sees the scene. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* Plans of many lights, of too many, of slides and of strong and weak ones. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

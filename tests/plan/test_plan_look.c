@@ -1,4 +1,5 @@
 /* Plans of how a picture is shown: its tone, and what is blended. */
+#include <cglm/cglm.h>
 #include <string.h>
 
 #include "plan/fixture.h"

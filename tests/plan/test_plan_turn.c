@@ -1,4 +1,5 @@
 /* Only the camera moves: no map is drawn again, and none is filtered. */
+#include <cglm/cglm.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 /* tool_turn OPTION.. SCENE: how often shadows are drawn again in a turn of the camera round a scene
  * in which nothing else moves. Options as of `gnomon render`. Per light its technique, its map, its
  * texels, and what each frame after the first draws and filters of it. */
+#include <cglm/cglm.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,5 +1,6 @@
 #include "framing_help.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 enum { TIMES = 97 };

@@ -1,4 +1,5 @@
 /* Cameras in pictures of any shape. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 

@@ -2,6 +2,7 @@
  * that program was not built. */
 #include "check.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
 /* [light "NAME"] of a configuration, what belongs to lights, and the camera, applied to a scene. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

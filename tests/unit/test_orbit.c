@@ -1,4 +1,5 @@
 /* The eye moved by hand. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

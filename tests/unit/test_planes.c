@@ -1,5 +1,6 @@
 /* The near and far planes of a picture: as near as the file's camera or beyond it, and never beyond
  * a surface in view, for cameras of both kinds, wherever they stand. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

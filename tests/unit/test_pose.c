@@ -1,4 +1,5 @@
 /* The scene at a time. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

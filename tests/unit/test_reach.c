@@ -1,3 +1,4 @@
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "plan/stage_scene.h"

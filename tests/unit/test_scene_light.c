@@ -1,4 +1,5 @@
 /* Lights, cameras, extras, the plane, and what is made where the file has none. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

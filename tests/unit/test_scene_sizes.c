@@ -4,6 +4,8 @@
 #include "scene/pose.h"
 #include "unit/scene_help.h"
 
+#include <cglm/cglm.h>
+
 #define LIGHT "'extensions':{'KHR_lights_punctual':{'light':0}}"
 
 static struct gn_scene *load_nodes(const char *light, const char *nodes, const char *list) {

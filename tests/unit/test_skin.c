@@ -1,4 +1,5 @@
 /* Skins and morph targets: what the loader makes of them, and where the pose has each vertex. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

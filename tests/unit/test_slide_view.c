@@ -2,6 +2,7 @@
  * otherwise; the lamp looks along its -Z. */
 #include "shadow/slide.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 #include "unit/check.h"

@@ -1,4 +1,5 @@
 /* Tangents for normal maps: those of the file, and those made at load. */
+#include <cglm/cglm.h>
 #include <stdlib.h>
 
 #include "unit/scene_help.h"

@@ -1,4 +1,5 @@
 /* What clips move beside nodes. */
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -2,6 +2,7 @@
  * their numbers. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* Cameras, in the order of the nodes that have one. An invalid one is dropped with a warning. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 
 #define NEAR_MOST_M 1e16f /* near times far must fit a float */

@@ -2,6 +2,7 @@
  * properties, so nothing here fails: an invalid value gives a warning and the default is kept. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>

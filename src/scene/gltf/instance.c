@@ -2,6 +2,7 @@
 #include "scene/exact.h"
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>

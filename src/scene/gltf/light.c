@@ -1,6 +1,7 @@
 /* KHR_lights_punctual: lights, in the order of the nodes that have one. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

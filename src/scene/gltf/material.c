@@ -1,5 +1,6 @@
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
 

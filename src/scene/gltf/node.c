@@ -2,6 +2,7 @@
  * without recursion. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <inttypes.h>
 #include <string.h>
 

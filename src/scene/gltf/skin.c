@@ -2,6 +2,7 @@
  * vertex shaders fetch of them. */
 #include "scene/private.h"
 
+#include <cglm/cglm.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
