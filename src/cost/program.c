@@ -62,7 +62,7 @@ struct gn_cost_table *gn_cost_table_create(const char *text, const char *gpu) {
     struct gn_cost_table *table = gn_xalloc(1, sizeof *table);
     for (const char *line = strchr(text, '\n'); line && line[1]; line = strchr(line + 1, '\n'))
         add_row(table, line + 1, column);
-    table->kinds = gn_xalloc((size_t)FIGURES * ((size_t)table->count + 1), sizeof *table->kinds);
+    table->kinds = gn_xalloc((size_t)FIGURES * ((size_t)table->count + 1), sizeof(struct kind *));
     return table;
 }
 
