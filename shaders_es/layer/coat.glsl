@@ -12,8 +12,9 @@ void coat_begin(vec3 smooth_normal, inout surface s) {
     coat_normal = smooth_normal;
     coat_roughness = FACTOR_COAT_ROUGHNESS * TEXEL_COAT_ROUGHNESS.g;
     float alpha = coat_roughness * coat_roughness;
-    vec3 facing = environment_facing_share(vec3(0.04), alpha);
-    coat_share = FACTOR_COAT * TEXEL_COAT.r * environment_share(facing, coat_roughness, dot(smooth_normal, s.to_eye)).x;
+    float n_v = dot(smooth_normal, s.to_eye);
+    vec3 below = environment_metal_share(vec3(0.04), coat_roughness, n_v);
+    coat_share = FACTOR_COAT * TEXEL_COAT.r * environment_share(below, coat_roughness, n_v).x;
     s.through *= 1.0 - coat_share;
     coat_alpha = sqrt(min(alpha * alpha + surface_spread, 1.0));
     coat_sum = vec3(0.0);
