@@ -1,5 +1,6 @@
 /* Levels of detail: fewer triangles, an error that holds, edges that stay. What is checked of
  * errors is computed here without a grid, in all triangles. */
+#include <cglm/cglm.h>
 #include <stdlib.h>
 
 #include "scene/gltf/meshopt.h"
