@@ -87,14 +87,15 @@ surface surface_make(vec4 base, vec3 smooth_normal) {
         s.to_eye = surface_to_eye();
         vec2 rm = surface_roughness();
         s.roughness = s.lobe = rm.x;
-        s.alpha = rm.x * rm.x;
-        s.alpha_squared = s.alpha * s.alpha;
+        float alpha = rm.x * rm.x;
+        s.alpha_squared = alpha * alpha;
         if (METAL) {
             s.alpha_squared = min(s.alpha_squared + surface_spread, 1.0);
-            s.alpha = sqrt(s.alpha_squared);
-            s.lobe = sqrt(s.alpha);
+            alpha = sqrt(s.alpha_squared);
+            s.lobe = sqrt(alpha);
         }
-        s.exponent = 2.0 / max(s.alpha_squared, 0.000004) - 2.0;
+        s.alpha = max(alpha, 0.002);
+        s.exponent = 2.0 / (METAL ? max(s.alpha_squared, 0.000004) : s.alpha * s.alpha) - 2.0; // the same; it is the form that costs less
         vec3 f0 = surface_reflectance();
         s.f0 = f0;
         if (METAL) {
@@ -108,9 +109,10 @@ surface surface_make(vec4 base, vec3 smooth_normal) {
 #endif
         }
 #if defined WITH_ENVIRONMENT || defined WITH_TRANSMISSION
-        s.f0 = environment_metal_share(s.f0, rm.x, dot(s.normal, s.to_eye));
+        s.f0 = environment_metal_share(s.f0, rm.x, dot(s.normal, surface_to_eye()));
 #endif
         s.specular = s.f0 * (0.125 * s.exponent + 1.0);
+        s.to_eye = surface_to_eye();
     }
     return s;
 }
