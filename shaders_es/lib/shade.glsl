@@ -84,7 +84,6 @@ surface surface_make(vec4 base, vec3 smooth_normal) {
     s.through = vec3(0.0);
     s.open = 1.0;
     if (SPECULAR) {
-        s.to_eye = surface_to_eye();
         vec2 rm = surface_roughness();
         s.roughness = s.lobe = rm.x;
         float alpha = rm.x * rm.x;
