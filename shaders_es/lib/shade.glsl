@@ -69,9 +69,9 @@ struct surface {
     vec3 normal, to_eye, diffuse, specular;
     vec3 smooth_normal; // of the mesh, towards the viewer, not of unit length; with a normal map
     float exponent;
-    vec3 f0; // with ENVIRONMENT or TRANSMISSION: environment_facing_share()
+    vec3 f0; // with ENVIRONMENT or TRANSMISSION: environment_metal_share()
     float roughness;
-    float lobe, alpha; // roughness of what is reflected, within a pixel, and its square
+    float lobe, alpha, alpha_squared; // roughness of what is reflected, within a pixel, its square and the square of that
     vec3 through; // factors on what is behind
     float open;   // share of the ambient light that arrives: surface_open()
 };
@@ -85,24 +85,32 @@ surface surface_make(vec4 base, vec3 smooth_normal) {
     s.open = 1.0;
     if (SPECULAR) {
         vec2 rm = surface_roughness();
-        float given = rm.x * rm.x, alpha = given;
         s.roughness = s.lobe = rm.x;
+        float alpha = rm.x * rm.x;
+        s.alpha_squared = alpha * alpha;
         if (METAL) {
-            alpha = sqrt(min(alpha * alpha + surface_spread, 1.0));
+            s.alpha_squared = min(s.alpha_squared + surface_spread, 1.0);
+            alpha = sqrt(s.alpha_squared);
             s.lobe = sqrt(alpha);
         }
         s.alpha = max(alpha, 0.002);
-        s.exponent = 2.0 / (s.alpha * s.alpha) - 2.0;
+        s.exponent = 2.0 / (METAL ? max(s.alpha_squared, 0.000004) : s.alpha * s.alpha) - 2.0; // the same; it is the form that costs less
         vec3 f0 = surface_reflectance();
-        s.f0 = METAL ? mix(f0, base.rgb, rm.y) : f0;
+        s.f0 = f0;
+        if (METAL) {
 #ifdef WITH_ENVIRONMENT
-        if (METAL) s.f0 = base.rgb * rm.y + (f0 - f0 * rm.y);
+            vec3 metal = base.rgb * rm.y;
+            s.f0 = metal + (f0 - f0 * rm.y); // white stays white
+            s.diffuse = base.rgb - metal;
+#else
+            s.f0 = mix(f0, base.rgb, rm.y);
+            s.diffuse = base.rgb * (1.0 - rm.y);
 #endif
+        }
 #if defined WITH_ENVIRONMENT || defined WITH_TRANSMISSION
-        s.f0 = environment_facing_share(s.f0, given);
+        s.f0 = environment_metal_share(s.f0, rm.x, dot(s.normal, surface_to_eye()));
 #endif
         s.specular = s.f0 * (0.125 * s.exponent + 1.0);
-        if (METAL) s.diffuse = base.rgb * (1.0 - rm.y);
         s.to_eye = surface_to_eye();
     }
     return s;
@@ -173,8 +181,8 @@ vec3 surface_ambient(surface s, vec3 base) {
     vec3 ambient = surface_irradiance(s);
 #ifdef WITH_ENVIRONMENT
     float n_v = dot(s.normal, s.to_eye);
-    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.lobe);
-    vec3 share = environment_share(s.f0, s.roughness, n_v); // seen from behind, below 0: as at a grazing angle
+    vec3 along = environment_along(s.normal, s.to_eye, n_v, s.alpha_squared);
+    vec3 share = environment_share(s.f0, s.roughness, n_v);
     vec3 reflected = textureLod(u_environment, along, s.lobe * ENVIRONMENT_ROUGHEST).rgb;
     if (ENVIRONMENT_DIFFUSE) return mix(s.diffuse * ambient, reflected, share) * s.open;
     return s.diffuse * ambient * s.open + reflected * (share * (ENVIRONMENT_SCALED ? PASS(PASS_SKY).w * s.open : s.open));
