@@ -12,7 +12,7 @@ void coat_begin(vec3 smooth_normal, inout surface s) {
     coat_normal = smooth_normal;
     coat_roughness = FACTOR_COAT_ROUGHNESS * TEXEL_COAT_ROUGHNESS.g;
     float alpha = coat_roughness * coat_roughness;
-    float once = 0.04 - 0.0255 * alpha; // from the front: of a coat the rest is less than grazing light adds
+    float once = 0.04 * (1.0 - 0.64 * alpha); // from the front: of a coat the rest is less than grazing light adds
     coat_share = FACTOR_COAT * TEXEL_COAT.r * environment_share(vec3(once), coat_roughness, dot(smooth_normal, s.to_eye)).x;
     s.through *= 1.0 - coat_share;
     coat_alpha_squared = min(alpha * alpha + surface_spread, 1.0);
