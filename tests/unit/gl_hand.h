@@ -67,6 +67,8 @@ static inline struct gn_instance instance(float r, float g, float b, float a) {
 static inline void begin_plan(enum gn_output_format output) {
     memset(&s, 0, sizeof s);
     s.plan = (struct gn_plan){.width_px = SIDE,
+                              .shown_width_px = SIDE,
+                              .shown_height_px = SIDE,
                               .height_px = SIDE,
                               .output = output,
                               .finished = output,

@@ -284,7 +284,7 @@ static void what_a_file_may_not_say(void **state) {
     assert_file_refused("[render]\nshadw = pcf\n",
                         "bad.ini:2: unknown key \"shadw\" in [render]; expected shadow");
     assert_file_refused("[render]\nzzzzzzz = 1\n",
-                        "bad.ini:2: unknown key \"zzzzzzz\"; keys of [render]: size,");
+                        "bad.ini:2: unknown key \"zzzzzzz\"; keys of [render]: detail, size,");
     assert_file_refused("[render]\nmap-format = auto\n", "expected map_format");
     assert_file_refused("[render]\nout = x\n", "bad.ini:2: unknown key \"out\"");
     assert_file_refused("[render]\nturntable = 1\n", "bad.ini:2: unknown key \"turntable\"");
