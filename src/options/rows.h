@@ -33,8 +33,8 @@ GN_OPTION(.name = "turntable", .section = "scene", .kind = GN_KIND_NUMBER, .min 
           .help = "turn the camera around the scene", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_deg_s))
 GN_OPTION(.name = "turntable-rest", .section = "scene", .kind = GN_KIND_SECONDS, .max = 86400, .value = "S", .unit = "seconds", .fallback = "5",
           .help = "how long the turntable rests after the view was turned by hand; then it goes on from there. 0: it never rests", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(scene.turntable_rest_ns))
-GN_OPTION(.name = "detail", .section = "render", .kind = GN_KIND_SHARE, .min = 0, .max = 16, .value = "auto|full|PX", .unit = "pixels", .fallback = "auto",
-          .help = "draw meshes of 2,000 triangles or more with fewer of them, so much off at most, chosen by distance; auto: one pixel at its nearest part; full: never", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.detail_px))
+GN_OPTION(.name = "detail", .section = "render", .kind = GN_KIND_SHARE, .min = 0, .max = 16, .value = "auto|full|PX", .unit = "pixels", .fallback = "full",
+          .help = "draw meshes of 2,000 triangles or more with fewer of them, so much off at most, chosen by distance; auto: one pixel at its nearest part, where fine bumps may lose some of their shading; full: never", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.detail_px))
 /* the picture */
 GN_OPTION(.name = "size", .section = "render", .kind = GN_KIND_SIZE, .min = 1, .max = 16384, .value = "WxH", .unit = "pixels",
           .fallback = "1280x720", .help = "size of the picture", .commands = DRAW | MODEL | BIT(LESSON), .change = GN_CHANGE_RELOAD, .reopens = true, .offset = FIELD(render.size))

@@ -57,8 +57,8 @@ static json_t *inspect(const char *path, const char *msaa) {
     static struct gn_run run;
     struct gn_err err = {0};
     const char *const argv[] = {
-        gn_shot_program(), "inspect", path,     "--for",    "pi4",  "--size", SIZE, "--msaa", msaa,
-        "--floor",         "none",    "--json", "--detail", "full", NULL};
+        gn_shot_program(), "inspect", path,      "--for", "pi4",    "--size", SIZE,
+        "--msaa",          msaa,      "--floor", "none",  "--json", NULL};
     if (!gn_run(&run, argv, 0, &err)) fail_msg("%s", err.text);
     if (run.status != 0) fail_msg("%s", run.err);
     json_t *all = json_loads(run.out, 0, NULL);
@@ -88,9 +88,7 @@ static int count_drawn(const char *path) {
     struct gn_picture shot;
     struct gn_err err = {0};
     int drawn = 0;
-    /* whole, as it is counted: what is simplified covers some pixels twice */
-    const char *const args[] = {"--aov", "distance", "--size", SIZE, "--backend",
-                                "egl",   "--detail", "full",   NULL};
+    const char *const args[] = {"--aov", "distance", "--size", SIZE, "--backend", "egl", NULL};
     if (!gn_shot(&shot, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
     for (int i = 0; i < PIXELS; i++) drawn += isfinite(shot.data[i * shot.channels]) != 0;
     gn_picture_finish(&shot);
