@@ -301,6 +301,8 @@ static void try_outputs(struct bench *b, const struct stage *s, enum what wanted
                 b->gl->targets.wants_stencil = false;
                 if (draw(b, s, &opts, wanted, what) && form < 2) lay_over(b, what);
                 if (wanted == EVERYTHING && form < 2 && msaa == 0 && !planar) try_mean(b, s, opts);
+                opts.output.scale = .75f;
+                draw(b, s, &opts, wanted, "picture that is scaled");
             }
 }
 
