@@ -282,8 +282,7 @@ static void try_mean(struct bench *b, const struct stage *s, struct gn_frame_opt
     draw(b, s, &opts, ALL_BUT_LIT, "mean");
 }
 
-/* Bytes that the target encodes, bytes that shaders do, bytes that nobody does, floats; with
- * samples, and with a stencil. */
+/* Bytes that the target, shaders or nobody encodes, floats; with samples, a stencil, scaled. */
 static void try_outputs(struct bench *b, const struct stage *s, enum what wanted) {
     for (int form = 0; form < 4; form++)
         for (uint32_t msaa = 0; msaa <= 4; msaa += 4)
@@ -302,7 +301,7 @@ static void try_outputs(struct bench *b, const struct stage *s, enum what wanted
                 if (draw(b, s, &opts, wanted, what) && form < 2) lay_over(b, what);
                 if (wanted == EVERYTHING && form < 2 && msaa == 0 && !planar) try_mean(b, s, opts);
                 opts.output.scale = .75f;
-                draw(b, s, &opts, wanted, "picture that is scaled");
+                draw(b, s, &opts, wanted, what);
             }
 }
 
