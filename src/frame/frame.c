@@ -175,6 +175,21 @@ static void choose_size(struct gn_plan *plan, const struct gn_frame_opts *opts) 
     plan->shown_height_px = plan->height_px;
 }
 
+/* The picture as it is seen, upright: the plan's sizes are those of a screen that may be on its
+ * side. */
+static void turn_picture(struct gn_frame *frame, const struct gn_frame_opts *opts) {
+    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const struct gn_plan *plan = &frame->plan;
+    const bool on_side = opts->output.turn_deg / 90 % 2;
+    frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
+    frame->picture.height_px = on_side ? plan->width_px : plan->height_px;
+    frame->picture.scale = (float)plan->width_px /
+                           (float)(opts->output.width_px ? opts->output.width_px : plan->width_px);
+    frame->picture.shown_width_px = on_side ? plan->shown_height_px : plan->shown_width_px;
+    frame->picture.shown_height_px = on_side ? plan->shown_width_px : plan->shown_height_px;
+    memcpy(frame->picture.turn, turns[opts->output.turn_deg / 90 % 4], sizeof frame->picture.turn);
+}
+
 /* Whatever is drawn after it is as large as the picture that is shown. */
 void gn_frame_add_scale(struct gn_frame *frame, const struct gn_pose *pose,
                         const struct gn_frame_opts *opts) {
@@ -191,7 +206,6 @@ void gn_frame_add_scale(struct gn_frame *frame, const struct gn_pose *pose,
 const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pose *pose,
                                      const struct gn_frame_opts *opts,
                                      struct gn_warnings *warnings) {
-    static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     struct gn_plan *plan = &frame->plan;
     frame->draws.count = frame->instances.count = frame->programs.count = frame->passes.count = 0;
     *plan = (struct gn_plan){.scene = frame->scene,
@@ -199,17 +213,10 @@ const struct gn_plan *gn_frame_build(struct gn_frame *frame, const struct gn_pos
                              .detail = opts->detail.of,
                              .maps_bytes = opts->shadow.maps_bytes};
     choose_size(plan, opts);
+    turn_picture(frame, opts);
     frame->camera = opts->view.light_plus_1
                         ? frame->scene->camera_count + opts->view.light_plus_1 - 1
                         : (uint32_t)opts->view.camera;
-    const bool on_side = opts->output.turn_deg / 90 % 2;
-    frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
-    frame->picture.height_px = on_side ? plan->width_px : plan->height_px;
-    frame->picture.scale = (float)plan->width_px /
-                           (float)(opts->output.width_px ? opts->output.width_px : plan->width_px);
-    frame->picture.shown_width_px = on_side ? plan->shown_height_px : plan->shown_width_px;
-    frame->picture.shown_height_px = on_side ? plan->shown_width_px : plan->shown_height_px;
-    memcpy(frame->picture.turn, turns[opts->output.turn_deg / 90 % 4], sizeof frame->picture.turn);
     gn_frame_learn_scene(frame);
     gn_frame_renew_notices(frame, opts);
     choose_output(frame, opts, warnings);
