@@ -5,6 +5,7 @@
 #   KIND   efi (PCs, and boards whose firmware has UEFI) or pi4 (Raspberry Pi 4, 400, CM4)
 #   ARCH   arm64 or amd64: programs of another architecture than this machine's need qemu-user-static
 #   SUITE  bookworm or trixie
+#   MIRROR, SECURITY  where updates of Debian come from: the repositories that apt uses on this machine without them
 #   SOURCES=FILE  a .sources of board/repository.sh: updates of gnomon come from there
 #   EXTRA  more of the kernel's command line, for tests
 # Root makes it, since device files and owners are the image's; no loop device is used.
@@ -43,6 +44,8 @@ root=$work/root
 
 # ---- the root --------------------------------------------------------------------------------------------
 mirror=$(sh "$here/../mirror.sh")
+security=${SECURITY:-$(sh "$here/../mirror.sh" -security 2> /dev/null || true)}
+[ -n "$security" ] || echo 'image: without security updates of Debian: SECURITY is the address of their repository' >&2
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "SOURCE_DATE_EPOCH=$SOURCE_DATE_EPOCH" "$@"; }
 mkdir -p "$work/debs"
 # shellcheck disable=SC2086
@@ -58,9 +61,11 @@ inside sh -c 'apt-get -q -y --no-install-recommends install /debs/*.deb && apt-g
     { tail -n 20 "$work/log" >&2 && refuse 'the packages are not installed'; }
 rm -rf "$root/debs"
 if [ -n "${SOURCES:-}" ]; then cp "$SOURCES" "$root/etc/apt/sources.list.d/gnomon.sources"; fi
-# a builder's mirror is nobody else's
-printf 'deb http://deb.debian.org/debian %s %s\ndeb http://deb.debian.org/debian %s-updates %s\ndeb http://deb.debian.org/debian-security %s-security %s\n' \
-    "$suite" "$components" "$suite" "$components" "$suite" "$components" > "$root/etc/apt/sources.list"
+# updates of Debian
+{
+    printf 'deb %s %s %s\n' "${MIRROR:-$mirror}" "$suite" "$components" "${MIRROR:-$mirror}" "$suite-updates" "$components"
+    [ -z "$security" ] || printf 'deb %s %s %s\n' "$security" "$suite-security" "$components"
+} > "$root/etc/apt/sources.list"
 
 # ---- its configuration -------------------------------------------------------------------------------------
 put() { install -D -m "$1" /dev/stdin "$root$2"; }
@@ -122,7 +127,7 @@ inside systemctl -q disable ssh wpa_supplicant
 inside systemctl -q mask getty@.service serial-getty@.service console-getty.service ctrl-alt-del.target apt-daily.timer apt-daily-upgrade.timer \
     dpkg-db-backup.timer fstrim.timer e2scrub_all.timer e2scrub_reap.service
 inside passwd -q -l root
-ln -sf /run/systemd/resolve/stub-resolv.conf "$root/etc/resolv.conf"
+ln -sf /run/systemd/resolve/resolv.conf "$root/etc/resolv.conf"
 options="root=PARTUUID=$id-02 ro rootwait overlayroot=tmpfs:recurse=0 net.ifnames=0 quiet loglevel=0 vt.global_cursor_default=0 systemd.show_status=no panic=10"
 options="$options${EXTRA:+ $EXTRA}"
 
