@@ -20,12 +20,10 @@ static struct gn_frame_opts opts;
 static struct gn_captions *captions;
 static struct gn_err err;
 static struct gn_light many_lights[GN_LIGHTS_MAX + 2];
-static struct gn_light *own_lights;
 static uint8_t bare[PIXELS][4], shown[PIXELS][4], other[PIXELS][4];
 
 static void open_with(const char *backend, const char *without) {
     help_stage_open(&stage, gn_stage_scene_make, backend, without, NULL);
-    own_lights = stage.scene->lights;
     glm_vec3_copy((vec3){1, 1, 1}, stage.scene->environment.background); /* the worst for white */
 }
 
@@ -36,8 +34,6 @@ HELP_OPENS(open_osmesa_without_srgb, "osmesa", "srgb")
 
 static int close_all(void **state) {
     (void)state;
-    stage.scene->lights = own_lights;
-    stage.pose.lights = own_lights;
     help_stage_close(&stage);
     return 0;
 }
@@ -45,9 +41,7 @@ static int close_all(void **state) {
 /* The packaged font, where there is one. */
 static int setup(void **state) {
     (void)state;
-    stage.scene->lights = own_lights;
-    stage.pose.lights = own_lights;
-    stage.scene->light_count = 3;
+    help_stage_light(&stage, NULL, 3);
     opts = (struct gn_frame_opts){.output.width_px = WIDTH,
                                   .output.height_px = HEIGHT,
                                   .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 120}};
@@ -256,13 +250,11 @@ static void test_aovs_have_none(void **state) {
 static void test_over_many_lights(void **state) {
     (void)state;
     for (uint32_t i = 0; i < GN_LIGHTS_MAX + 2; i++) {
-        many_lights[i] = own_lights[0];
+        many_lights[i] = stage.lights[0];
         many_lights[i].technique = "none";
         many_lights[i].color[0] *= 3.0f; /* what is over white must not shine through */
     }
-    stage.scene->lights = many_lights;
-    stage.pose.lights = many_lights;
-    stage.scene->light_count = GN_LIGHTS_MAX + 2;
+    help_stage_light(&stage, many_lights, GN_LIGHTS_MAX + 2);
     for (uint32_t msaa = 0; msaa <= 4; msaa += 4) {
         opts.output.msaa = msaa;
         const struct gn_plan *plan = draw(NULL, bare);

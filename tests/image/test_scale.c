@@ -17,12 +17,10 @@ static struct gn_frame_opts opts;
 static struct gn_captions *captions;
 static struct gn_err err;
 static struct gn_light many_lights[GN_LIGHTS_MAX + 2];
-static struct gn_light *own_lights;
 static uint8_t small[PIXELS][4], shown[PIXELS][4], other[PIXELS][4];
 
 static void open_with(const char *backend, const char *without) {
     help_stage_open(&stage, gn_stage_scene_make, backend, without, NULL);
-    own_lights = stage.scene->lights;
 }
 
 HELP_OPENS(open_egl, "egl", NULL)
@@ -31,17 +29,13 @@ HELP_OPENS(open_egl_without_srgb, "egl", "srgb")
 
 static int close_all(void **state) {
     (void)state;
-    stage.scene->lights = own_lights;
-    stage.pose.lights = own_lights;
     help_stage_close(&stage);
     return 0;
 }
 
 static int setup(void **state) {
     (void)state;
-    stage.scene->lights = own_lights;
-    stage.pose.lights = own_lights;
-    stage.scene->light_count = 3;
+    help_stage_light(&stage, NULL, 3);
     opts = (struct gn_frame_opts){.output = {.width_px = WIDTH, .height_px = HEIGHT},
                                   .shadow.any = {.given = GN_LIGHT_GIVEN(map_px), .map_px = 120}};
     captions = gn_captions_create(&(struct gn_captions_opts){0});
@@ -124,12 +118,10 @@ static void test_it_is_the_smaller_picture(void **state) {
 static void test_with_a_last_pass(void **state) {
     (void)state;
     for (uint32_t i = 0; i < GN_LIGHTS_MAX + 2; i++) {
-        many_lights[i] = own_lights[0];
+        many_lights[i] = stage.lights[0];
         many_lights[i].technique = "none";
     }
-    stage.scene->lights = many_lights;
-    stage.pose.lights = many_lights;
-    stage.scene->light_count = GN_LIGHTS_MAX + 2;
+    help_stage_light(&stage, many_lights, GN_LIGHTS_MAX + 2);
     opts.tone = GN_TONE_ACES;
     expect_larger(0.75f);
 }

@@ -46,11 +46,30 @@ static void put_file(const char *path, struct gn_made *made) {
     free(made->data);
 }
 
+/* Shows what was made, of so many items; no step takes longer than bound_ms. Finishes the maker. */
+static void show_made(struct gn_maker *maker, uint32_t items_min, uint32_t items_max,
+                      double bound_ms) {
+    struct gn_made glb = gn_maker_glb(maker);
+    char path[200];
+    gn_maker_finish(maker);
+    const char *folder = help_folder();
+    snprintf(path, sizeof path, "%s/made.glb", folder);
+    put_file(path, &glb);
+    struct gn_show *show = begin_show();
+    const double most_ms = show_file(show, path);
+    const uint32_t items = show->screen.stage.scene->item_count;
+    gn_show_close(show);
+    help_remove(folder);
+    printf("%u items: %.0f ms at the most\n", items, most_ms);
+    assert_in_range(items, items_min, items_max);
+    if (most_ms > bound_ms) fail_msg("a step takes %.0f ms", most_ms);
+}
+
 /* A primitive of 64 materials in 4000 nodes is 252,000 items, and each variant a mode. */
 static void test_many_variants_of_many_nodes(void **state) {
     enum { VARIANTS = 63, NODES = 4000 };
     struct gn_maker maker;
-    char json[200], path[200];
+    char json[200];
     (void)state;
     gn_maker_init(&maker);
     gn_maker_square(&maker);
@@ -73,19 +92,7 @@ static void test_many_variants_of_many_nodes(void **state) {
                         json_pack("{s:{s:o}}", "KHR_materials_variants", "variants", names));
     json_object_set_new(json_array_get(json_object_get(maker.root, "scenes"), 0), "nodes", nodes);
     gn_maker_set(&maker, "extensionsUsed", "['KHR_materials_variants']");
-    struct gn_made glb = gn_maker_glb(&maker);
-    gn_maker_finish(&maker);
-    const char *folder = help_folder();
-    snprintf(path, sizeof path, "%s/variants.glb", folder);
-    put_file(path, &glb);
-    struct gn_show *show = begin_show();
-    const double most_ms = show_file(show, path);
-    const uint32_t items = show->screen.stage.scene->item_count;
-    gn_show_close(show);
-    help_remove(folder);
-    printf("%u items: %.0f ms at the most\n", items, most_ms);
-    assert_in_range(items, VARIANTS * NODES, 2 * VARIANTS * NODES);
-    if (most_ms > MOST_MS) fail_msg("a step takes %.0f ms", most_ms);
+    show_made(&maker, VARIANTS * NODES, 2 * VARIANTS * NODES, MOST_MS);
 }
 
 enum { MANY = 100000 };
@@ -94,7 +101,6 @@ enum { MANY = 100000 };
  * all of them, and no step makes several. */
 static void show_many(bool of_one_node, double bound_ms) {
     struct gn_maker maker;
-    char path[200];
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_add(&maker, "materials",
@@ -112,19 +118,7 @@ static void show_many(bool of_one_node, double bound_ms) {
         gn_maker_set(&maker, "extensionsUsed", "['EXT_mesh_gpu_instancing']");
     }
     for (int i = 1; !of_one_node && i < MANY; i++) json_array_append(primitives, primitive);
-    struct gn_made glb = gn_maker_glb(&maker);
-    gn_maker_finish(&maker);
-    const char *folder = help_folder();
-    snprintf(path, sizeof path, "%s/many.glb", folder);
-    put_file(path, &glb);
-    struct gn_show *show = begin_show();
-    const double most_ms = show_file(show, path);
-    const uint32_t items = show->screen.stage.scene->item_count;
-    gn_show_close(show);
-    help_remove(folder);
-    printf("%u items: %.0f ms at the most\n", items, most_ms);
-    assert_in_range(items, MANY, MANY + 1);
-    if (most_ms > bound_ms) fail_msg("a step takes %.0f ms", most_ms);
+    show_made(&maker, MANY, MANY + 1, bound_ms);
 }
 
 static void test_many_blended_instances(void **state) {

@@ -36,12 +36,20 @@ void help_stage_open(struct help_stage *stage, struct gn_scene *(*make)(void), c
     help_open(&stage->display, backend);
     stage->gl = help_gl(&stage->display, &(struct gn_gl_opts){.without = without}, warnings);
     stage->scene = make();
+    stage->lights = stage->scene->lights;
     if (!gn_gl_load(stage->gl, stage->scene, &err)) fail_msg("%s", err.text);
     gn_pose_init(&stage->pose, stage->scene, GN_POSE_DEFAULT);
     stage->frame = gn_frame_create(stage->scene, gn_gl_caps(stage->gl));
 }
 
+void help_stage_light(struct help_stage *stage, struct gn_light *lights, uint32_t count) {
+    stage->scene->lights = lights ? lights : stage->lights;
+    stage->pose.lights = stage->scene->lights;
+    stage->scene->light_count = count;
+}
+
 void help_stage_close(struct help_stage *stage) {
+    help_stage_light(stage, NULL, stage->scene->light_count);
     gn_frame_destroy(stage->frame);
     gn_pose_finish(&stage->pose);
     gn_gl_destroy(stage->gl);

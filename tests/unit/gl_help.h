@@ -14,7 +14,8 @@ struct gn_gl *help_gl(struct gn_display *display, const struct gn_gl_opts *extra
 struct help_stage { /* a scene that is ready to be drawn, at 0 s */
     struct gn_display display;
     struct gn_gl *gl;
-    struct gn_scene *scene; /* owned */
+    struct gn_scene *scene;  /* owned */
+    struct gn_light *lights; /* the scene's own, where help_stage_light() gave it others */
     struct gn_pose pose;
     struct gn_frame *frame;
 };
@@ -33,6 +34,10 @@ void help_stage_close(struct help_stage *stage);
 /* Builds, checks, prepares and runs the plan of the pose as it is; fails the test if one fails. */
 const struct gn_plan *help_stage_draw(struct help_stage *stage, const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings);
+
+/* Gives the scene, and the pose, the first `count` of these lights, which it only reads; NULL: of
+ * its own. */
+void help_stage_light(struct help_stage *stage, struct gn_light *lights, uint32_t count);
 
 /* Writes name (a path of at most one folder) below a new temporary folder and returns the folder.
  */
