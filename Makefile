@@ -443,7 +443,7 @@ install: all
 deb: dist
 	@O='$(O)' VERSION='$(VERSION)' sh board/deb.sh
 release: dist
-	@O='$(O)' VERSION='$(VERSION)' TAG='$(TAG)' sh board/release.sh
+	@O='$(O)' VERSION='$(VERSION)' sh board/release.sh
 repository:
 	@REPOSITORY='$(REPOSITORY)' KEY='$(KEY)' sh board/repository.sh $(O)/gnomon-$(VERSION) $(O)/repository
 image: all

@@ -56,8 +56,8 @@ for pool in pool/*; do
     apt-ftparchive -o APT::FTPArchive::Release::Origin=gnomon -o APT::FTPArchive::Release::Label=gnomon \
         -o "APT::FTPArchive::Release::Suite=$suite" -o "APT::FTPArchive::Release::Codename=$suite" \
         -o "APT::FTPArchive::Release::Architectures=${arches% }" -o APT::FTPArchive::Release::Components=main \
-        -o APT::FTPArchive::Release::Description='gnomon: 3-D scenes with true shadows, for kiosks' release "$new" |
-        sed "s/^Date: .*/Date: $(LC_ALL=C date -u -R -d "@$now")/" > "$list.Release" && mv "$list.Release" "$new/Release"
+        -o APT::FTPArchive::Release::Description='gnomon: 3-D scenes with true shadows, for kiosks' release "$new" > "$list.Release"
+    sed "s/^Date: .*/Date: $(LC_ALL=C date -u -R -d "@$now")/" "$list.Release" > "$new/Release" && rm "$list.Release"
     gpg --local-user "$KEY" --clearsign --output "$new/InRelease" "$new/Release" || refuse "gpg does not sign with $KEY"
     gpg --local-user "$KEY" --armor --detach-sign --output "$new/Release.gpg" "$new/Release"
     rm -rf "$list.old"

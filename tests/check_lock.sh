@@ -15,7 +15,7 @@ etc=$into/etc
 "$lock" off "$into" || complain 'off before on'
 "$lock" on "$into" && "$lock" on "$into" || complain 'on, twice'
 [ "$(readlink "$etc/systemd/system/ctrl-alt-del.target")" = /dev/null ] || complain 'Ctrl+Alt+Del is not masked'
-for line in NAutoVTs=0 ReserveVT=0 HandlePowerKey=ignore; do
+for line in NAutoVTs=0 ReserveVT=0 HandlePowerKey=ignore HandleRebootKeyLongPress=ignore HandleLidSwitch=ignore; do
     grep -qx "$line" "$etc/systemd/logind.conf.d/gnomon-locked.conf" || complain "logind: $line"
 done
 grep -qx 'kernel.sysrq = 0' "$etc/sysctl.d/90-gnomon-locked.conf" || complain 'SysRq'
@@ -27,6 +27,7 @@ fi
 mkdir -p "$etc/systemd/system" && echo own > "$etc/systemd/system/ctrl-alt-del.target"
 ! "$lock" on "$into" 2> "$folder/err" || complain 'a unit of the owner is replaced'
 [ "$(cat "$etc/systemd/system/ctrl-alt-del.target")" = own ] || complain 'it is gone'
+[ ! -e "$etc/systemd/logind.conf.d/gnomon-locked.conf" ] || complain 'half locked'
 ! "$lock" sideways "$into" 2> /dev/null || complain 'sideways'
 
 unit=$into/usr/lib/systemd/system/gnomon.service

@@ -35,11 +35,8 @@ set_wifi() {
     [A-Z][A-Z]) ;;
     *) complain "country = $3: two capital letters are wanted, such as DE" && return ;;
     esac
-    (
-        umask 077
-        printf 'country=%s\n' "$3"
-        wpa_passphrase "$1" "$2" | grep -v '^[[:space:]]*#psk'
-    ) > $local_file || complain "wifi = $1: wpa_passphrase refuses it"
+    network=$(wpa_passphrase "$1" "$2") || { complain "wifi = $1: wpa_passphrase refuses it" && return; }
+    (umask 077 && { printf 'country=%s\n' "$3" && echo "$network" | grep -v '^[[:space:]]*#psk'; } > $local_file)
     systemctl start --no-block wpa_supplicant@wlan0.service
 }
 
@@ -51,7 +48,10 @@ set_key() {
         return
     fi
     mkdir -p -m 755 /run/gnomon-ssh /data/ssh && cp /run/gnomon-board/key /run/gnomon-ssh/authorized_keys
-    [ -s /data/ssh/ssh_host_ed25519_key ] || ssh-keygen -q -t ed25519 -N '' -f /data/ssh/ssh_host_ed25519_key
+    # a power cut may leave half of one
+    host=/data/ssh/ssh_host_ed25519_key
+    ssh-keygen -y -P '' -f $host > /dev/null 2>&1 ||
+        { rm -f $host $host.new* && ssh-keygen -q -t ed25519 -N '' -f $host.new && sync $host.new && mv $host.new $host; }
     systemctl start --no-block ssh.service
 }
 

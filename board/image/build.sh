@@ -44,6 +44,7 @@ root=$work/root
 
 # ---- the root --------------------------------------------------------------------------------------------
 mirror=$(sh "$here/../mirror.sh")
+case ${MIRROR:-$mirror} in *@* | file:* | copy:*) refuse "updates would come from ${MIRROR:-$mirror}: MIRROR is a repository that others reach, without a password" ;; esac
 security=${SECURITY:-$(sh "$here/../mirror.sh" -security 2> /dev/null || true)}
 [ -n "$security" ] || echo 'image: without security updates of Debian: SECURITY is the address of their repository' >&2
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 "SOURCE_DATE_EPOCH=$SOURCE_DATE_EPOCH" "$@"; }
@@ -91,6 +92,8 @@ put 644 /etc/systemd/network/50-gnomon.network << 'TEXT'
 Name=eth* wlan*
 [Network]
 DHCP=yes
+[DHCPv4]
+ClientIdentifier=mac
 [Link]
 RequiredForOnline=no
 TEXT
@@ -135,13 +138,13 @@ options="$options${EXTRA:+ $EXTRA}"
 fat=$work/fat
 mkdir -p "$fat/gnomon"
 if [ "$kind" = efi ]; then
-    cp "$(realpath "$root/boot"/vmlinuz-* | tail -n 1)" "$fat/vmlinuz"
-    cp "$(realpath "$root/boot"/initrd.img-* | tail -n 1)" "$fat/initrd.img"
-    mkdir -p "$fat/EFI/BOOT" "$fat/loader/entries"
+    mkdir -p "$fat/now" "$fat/EFI/BOOT" "$fat/loader/entries"
+    cp "$(realpath "$root/boot"/vmlinuz-* | tail -n 1)" "$fat/now/vmlinuz"
+    cp "$(realpath "$root/boot"/initrd.img-* | tail -n 1)" "$fat/now/initrd.img"
     cp "$root/usr/lib/systemd/boot/efi/systemd-boot$firmware.efi" "$fat/EFI/BOOT/BOOT$(echo "$firmware" | tr '[:lower:]' '[:upper:]').EFI"
     printf 'default gnomon.conf\ntimeout 0\neditor no\n' > "$fat/loader/loader.conf"
-    printf 'title gnomon\nlinux /vmlinuz\ninitrd /initrd.img\noptions %s\n' "$options" > "$fat/loader/entries/gnomon.conf"
-    printf 'title old\nlinux /vmlinuz.old\ninitrd /initrd.img.old\noptions %s\n' "$options" > "$fat/loader/entries/old.conf"
+    printf 'title gnomon\nlinux /now/vmlinuz\ninitrd /now/initrd.img\noptions %s\n' "$options" > "$fat/loader/entries/gnomon.conf"
+    printf 'title old\nlinux /old/vmlinuz\ninitrd /old/initrd.img\noptions %s\n' "$options" > "$fat/loader/entries/old.conf"
 else
     printf 'ROOTPART="PARTUUID=%s-02"\nCONSOLES=""\n' "$id" >> "$root/etc/default/raspi-firmware"
     echo "${options#* }" > "$root/etc/default/raspi-extra-cmdline"
@@ -167,7 +170,7 @@ owner=$(awk -F : '$1 == "gnomon" { print $3 ":" $4 }' "$root/etc/passwd")
 chown "${owner:?no user gnomon in the image}" "$work/data/lib" "$work/data/cache"
 find "$work/data" -exec touch -h -d "@$SOURCE_DATE_EPOCH" {} +
 root_mb=$(($(du -sm --apparent-size "$root" | cut -f 1) * 5 / 4 + free_mb))
-ext4() { mke2fs -q -t ext4 -m 0 -L "$1" -U "$(uuid "$2")" -E "hash_seed=$(uuid "$2")" -d "$3" "$4" "$5M"; } # LABEL NUMBER FOLDER FILE MB
+ext4() { mke2fs -q -t ext4 -b 4096 -m 0 -L "$1" -U "$(uuid "$2")" -E "hash_seed=$(uuid "$2")" -d "$3" "$4" "$5M"; } # LABEL NUMBER FOLDER FILE MB
 ext4 gnomon-root 2 "$root" "$work/root.ext4" $root_mb
 ext4 gnomon-data 3 "$work/data" "$work/data.ext4" $data_mb
 mkfs.vfat -F 32 -n GNOMON -i $id --invariant -C "$work/boot.fat" $((boot_mb * 1024)) > /dev/null

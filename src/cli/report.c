@@ -49,6 +49,9 @@ static json_t *copy_fields(json_t *value, const char *fields) {
     return copy;
 }
 
+/* Their texts are names of this program's own, whatever a machine is called. */
+static const char own_names[] = " technique map_format kind scene ";
+
 /* The same with each text as gn_redact_text() leaves it; a new reference. */
 static json_t *redact_all(const json_t *value, const struct gn_redact *redact) {
     size_t i;
@@ -62,8 +65,10 @@ static json_t *redact_all(const json_t *value, const struct gn_redact *redact) {
     if (!json_is_array(value) && !json_is_object(value)) return json_deep_copy(value);
     copy = json_is_array(value) ? json_array() : json_object();
     json_array_foreach(value, i, item) json_array_append_new(copy, redact_all(item, redact));
-    json_object_foreach((json_t *)value, key, item)
-        json_object_set_new(copy, key, redact_all(item, redact));
+    json_object_foreach((json_t *)value, key, item) json_object_set_new(
+        copy, key,
+        is_listed(own_names, key) && json_is_string(item) ? json_deep_copy(item)
+                                                          : redact_all(item, redact));
     return copy;
 }
 

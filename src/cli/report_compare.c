@@ -23,6 +23,12 @@ static void copy_cell(const json_t *at, const char *key, char *out, size_t size)
     for (char *bar = out; (bar = strchr(bar, '|'));) *bar = '/';
 }
 
+/* 0 to 1,000,000, whatever a file says. */
+static int count_of(const json_t *at, const char *key) {
+    const json_int_t count = json_integer_value(field(at, key));
+    return (int)(count < 0 ? 0 : count > 1000000 ? 1000000 : count);
+}
+
 static bool is_busy(const json_t *report) {
     return json_number_value(field(field(report, "bench"), "load")) > BUSY_LOAD;
 }
@@ -54,7 +60,7 @@ static void print_machine(const json_t *report, FILE *to) {
     copy_cell(machine, "model", model, sizeof model);
     copy_cell(machine, "cpu", cpu, sizeof cpu);
     if (!model[0] && !cpu[0]) copy_cell(machine, "arch", model, sizeof model);
-    const int cpus = (int)json_integer_value(field(machine, "cpus"));
+    const int cpus = count_of(machine, "cpus");
     fprintf(to, " %s%s%s, %d CPU%s%s |", model, model[0] && cpu[0] ? ", " : "", cpu, cpus,
             cpus == 1 ? "" : "s", is_busy(report) ? ", busy" : "");
 }
@@ -65,8 +71,7 @@ static void print_proved(const json_t *report, FILE *to) {
     char name[CELL];
     const json_t *test = field(report, "self_test"),
                  *lacks = field(field(report, "gpu"), "not_proved");
-    const int passed = (int)json_integer_value(field(test, "passed"));
-    const int failed = (int)json_integer_value(field(test, "failed"));
+    const int passed = count_of(test, "passed"), failed = count_of(test, "failed");
     fprintf(to, passed + failed ? " %d of %d |" : " - |", passed, passed + failed);
     json_array_foreach(lacks, i, cap) {
         copy_cell(cap, "name", name, sizeof name);
@@ -237,7 +242,7 @@ static void walk(struct difference *d, const char *path, const json_t *a, const 
 
 static bool draws(const json_t *report) { return json_is_true(field(report, "can_draw")); }
 static int failed_of(const json_t *report) {
-    return (int)json_integer_value(field(field(report, "self_test"), "failed"));
+    return count_of(field(report, "self_test"), "failed");
 }
 
 /* What `proves` proves and `lacks` does not, after spaces; "": nothing. */
@@ -245,11 +250,14 @@ static void list_lost(const json_t *proves, const json_t *lacks, char *out, size
     size_t i, k;
     json_t *cap, *other;
     out[0] = 0;
+    char name[CELL];
     json_array_foreach(field(field(proves, "gpu"), "proved"), i, cap) {
         bool found = !json_is_string(cap);
         json_array_foreach(field(field(lacks, "gpu"), "proved"), k, other) found |=
             json_equal(cap, other);
-        if (!found) gn_text_add(out, size, " %s", json_string_value(cap));
+        if (found) continue;
+        gn_text_format(name, sizeof name, "%s", json_string_value(cap)); /* no control characters */
+        gn_text_add(out, size, " %s", name);
     }
 }
 

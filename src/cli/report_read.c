@@ -1,6 +1,19 @@
 #include "cli/report.h"
 #include "core/file.h"
 
+enum { ELEMENTS_MAX = 1000 };
+
+/* No list is so long that comparing each element with each takes long. */
+static bool has_short_lists(json_t *value) {
+    size_t i;
+    const char *key;
+    json_t *item;
+    if (json_array_size(value) > ELEMENTS_MAX) return false;
+    json_array_foreach(value, i, item) if (!has_short_lists(item)) return false;
+    json_object_foreach(value, key, item) if (!has_short_lists(item)) return false;
+    return true;
+}
+
 json_t *gn_report_read(const char *path, struct gn_err *err) {
     struct gn_bytes bytes = {0};
     json_error_t why;
@@ -20,6 +33,9 @@ json_t *gn_report_read(const char *path, struct gn_err *err) {
     else if (!json_is_object(json_object_get(all, "machine")) ||
              !json_is_object(json_object_get(all, "bench")))
         gn_fail(err, "%.200s: a report without \"machine\" or \"bench\": send it again", path);
+    else if (!has_short_lists(all))
+        gn_fail(err, "%.200s: a list of more than %d elements, which no report has", path,
+                ELEMENTS_MAX);
     else
         return all;
     json_decref(all);

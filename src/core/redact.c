@@ -33,9 +33,10 @@ void gn_redact_add(struct gn_redact *redact, const char *word) {
 
 /* The text whole, and its parts between spaces, points and commas: "first.last", "First Last,,," */
 static void add_parts(struct gn_redact *redact, const char *text) {
-    static const char between[] = " \t\n.,;";
+    static const char between[] = " \t\n.,;:";
     char word[64];
     if (!text) return;
+    text += strspn(text, between);
     const size_t all = strcspn(text, "\n");
     snprintf(word, sizeof word, "%.*s", (int)all, text);
     gn_redact_add(redact, word);
@@ -54,7 +55,8 @@ static void add_files(struct gn_redact *redact, const char *root, const char *pa
     for (size_t i = 0; i < found.gl_pathc; i++)
         if (gn_file_read_text(found.gl_pathv[i], text, sizeof text)) {
             text[strcspn(text, "\n")] = 0;
-            gn_redact_add(redact, text);
+            for (size_t end = strlen(text); end > 0 && text[end - 1] == ' ';) text[--end] = 0;
+            if (strpbrk(text, "0123456789")) gn_redact_add(redact, text); /* not "None" */
         }
     globfree(&found);
 }
@@ -66,7 +68,7 @@ static void add_user(struct gn_redact *redact, const struct passwd *user) {
 }
 
 void gn_redact_read(struct gn_redact *redact, const char *root) {
-    static const char *const variables[] = {"HOSTNAME", "USER", "LOGNAME", "SUDO_USER"};
+    static const char *const variables[] = {"HOSTNAME", "USER", "LOGNAME", "SUDO_USER", "DISPLAY"};
     char host[HOST_NAME_MAX + 1] = "", path[PATH_MAX], text[256];
     *redact = (struct gn_redact){0};
     gethostname(host, sizeof host - 1);
@@ -113,6 +115,13 @@ static size_t length_of_address(const char *at) {
     snprintf(token, sizeof token, "%.*s", (int)kept, at);
     if (inet_pton(AF_INET, token, address) == 1 || inet_pton(AF_INET6, token, address) == 1)
         return kept;
+    const size_t host = strcspn(token, ":"); /* "192.0.2.1:0" */
+    char *port = token + host;
+    if (*port && !strchr(port + 1, ':')) {
+        *port = 0;
+        if (inet_pton(AF_INET, token, address) == 1) return host;
+        *port = ':';
+    }
     int pairs = 0;
     for (const char *pair = token;
          isxdigit((unsigned char)pair[0]) && isxdigit((unsigned char)pair[1]); pair += 3) {
@@ -122,9 +131,11 @@ static size_t length_of_address(const char *at) {
     return 0;
 }
 
-/* The length of an absolute path that begins at `at`, without what ends a sentence. */
+/* The length of a path that begins at `at` with a slash, a tilde or points, without what ends a
+ * sentence. */
 static size_t length_of_path(const char *text, const char *at) {
-    if (*at != '/' && !(at[0] == '~' && at[1] == '/')) return 0;
+    const size_t before = strspn(at, "~.");
+    if (before > 2 || at[before] != '/') return 0;
     if (at > text && (is_of_word(at[-1]) || at[-1] == '.')) return 0; /* "GNU/Linux" */
     size_t length = strcspn(at, " \t\n\"'()<>,;");
     while (length > 1 && strchr(".:", at[length - 1])) length--;

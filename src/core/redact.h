@@ -21,9 +21,9 @@ void gn_redact_add(struct gn_redact *redact, const char *word);
 
 /* Copies the text into out, of size bytes with the ending zero, without control characters, and
  * with "(name)" for each of the words, in any case: between characters that are neither letters nor
- * digits, from 6 characters on anywhere. "(path)" stands for an absolute path, of which that of a
- * device ("/dev/dri/card0") keeps its last part, "(address)" for an IP or MAC address. What does
- * not fit is cut. */
+ * digits, from 6 characters on anywhere. "(path)" stands for a path that begins with "/", "./",
+ * "../" or "~/", of which that of a device ("/dev/dri/card0") keeps its last part, "(address)" for
+ * an IP or MAC address. What does not fit is cut. */
 void gn_redact_text(const struct gn_redact *redact, const char *text, char *out, size_t size);
 
 #endif

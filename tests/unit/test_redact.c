@@ -54,6 +54,7 @@ static void test_paths_go_but_for_numbered_devices(void **state) {
     (void)state;
     assert_string_equal(redacted("/home/eva/x.glb: cannot read"), "(path): cannot read");
     assert_string_equal(redacted("see ~/x and (/srv/a.glb)."), "see (path) and ((path)).");
+    assert_string_equal(redacted("../mueller/x.glb, ./y ..."), "(path), (path) ...");
     assert_string_equal(redacted("/dev/dri/card0: Permission denied"), "card0: Permission denied");
     assert_string_equal(redacted("/dev/gpiochip0, /dev/input/event3"), "gpiochip0, event3");
     assert_string_equal(redacted("/dev/disk/by-id/usb-S3RIAL"), "(path)");
@@ -65,6 +66,7 @@ static void test_addresses_go_and_versions_stay(void **state) {
     assert_string_equal(redacted("192.168.7.31: refused, fe80::1 too."),
                         "(address): refused, (address) too.");
     assert_string_equal(redacted("dc:a6:32:01:02:03"), "(address)");
+    assert_string_equal(redacted("display 192.168.1.5:0"), "display (address):0");
     static const char *const versions[] = {"OpenGL ES 3.2 Mesa 22.3.6",
                                            "6.1.0-18-arm64",
                                            "5.15.153.1-microsoft-standard",
@@ -101,12 +103,21 @@ static void test_the_machine_is_asked_for_its_names(void **state) {
     put(root, "/proc/device-tree/serial-number", "10000000deadbeef");
     put(root, "/sys/class/dmi/id/board_serial", "BRD77123");
     put(root, "/sys/class/net/eth0/address", "dc:a6:32:aa:bb:cc");
+    put(root, "/sys/class/dmi/id/chassis_serial", "None");
+    put(root, "/sys/class/dmi/id/product_serial", "SN 4711  ");
     setenv("SUDO_USER", "wilhelmine", 1);
+    setenv("DISPLAY", "gallery:0", 1);
     gn_redact_read(&redact, root);
     assert_string_equal(redacted("foyer-west 10000000deadbeef BRD77123 wilhelmine"),
                         "(name) (name) (name) (name)");
     assert_string_equal(redacted("0123456789ABCDEF0123456789abcdef dc:a6:32:aa:bb:cc"),
                         "(name) (address)");
+    assert_string_equal(redacted("none, SN 4711."), "none, (name).");
+    assert_string_equal(redacted("gallery:1 or 0"), "(name):1 or 0");
+    setenv("DISPLAY", ":0", 1);
+    gn_redact_read(&redact, root);
+    assert_string_equal(redacted("screen :0"), "screen :0");
+    unsetenv("DISPLAY");
     unsetenv("SUDO_USER");
     assert_int_equal(gn_test_remove_folder(root), 0);
 }
