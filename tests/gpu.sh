@@ -12,5 +12,5 @@ if grep -q '^  renderer .* - the CPU$' "$work" && [ -z "${SOFTWARE:-}" ]; then
     exit 0
 fi
 if [ -n "${REPORT:-}" ]; then report=$REPORT; else "$gnomon" doctor --report --backend egl -o "$report"; fi
-grep -q '"failed": 0$' "$report" || { echo 'FAIL: rows of the self-test:' && grep -B 4 '"pass": false' "$report" && exit 1; }
+grep -q '"failed": 0$' "$report" || { echo 'FAIL: rows of the self-test:' && { grep -B 4 '"pass": false' "$report" || true; } && exit 1; }
 ! grep '"failure": "' "$report" || { echo 'FAIL: the bench' && exit 1; }
