@@ -74,7 +74,8 @@ static GLuint framebuffer_of(const struct gn_gl *gl, const struct gn_pass *pass,
     const struct gn_gl_output *output = gl->targets.output;
     if (pass->target.kind == GN_TARGET_MEAN) return output->means[pass->target.index];
     if (pass->target.kind == GN_TARGET_SCALED) return output->scaled;
-    return pass->target.kind == GN_TARGET_ENCODED ? output->encoded : output->framebuffer;
+    return pass->target.kind == GN_TARGET_ENCODED ? gn_gl_output_encoded(output)
+                                                  : gn_gl_output_drawn(output);
 }
 
 /* What a pass is to clear. Clearing a whole map is free on a tiled GPU; clearing one tile of it

@@ -80,6 +80,15 @@ static void attach_color(struct gn_gl *gl, struct gn_gl_output *o, GLuint *color
     attach_texture(gl, o, &o->texture);
 }
 
+GLuint gn_gl_output_drawn(const struct gn_gl_output *output) {
+    const bool direct = output->window && !output->encodes && !output->msaa && !output->scales;
+    return direct ? 0 : output->framebuffer;
+}
+
+GLuint gn_gl_output_encoded(const struct gn_gl_output *output) {
+    return output->window && !output->scales ? 0 : output->encoded;
+}
+
 GLuint gn_gl_output_finished(const struct gn_gl_output *output) {
     if (output->window) return 0;
     if (output->scales) return output->scaled;
@@ -135,14 +144,19 @@ static bool output_make(struct gn_gl *gl, struct gn_gl_output *o, struct gn_err 
     return gn_gl_error_check(gl, "making the output", err);
 }
 
-/* Samples of a window's picture are averaged off screen, whether it is scaled there or not. */
+/* A window's picture is scaled in some frames, and by the display in others: what either needs
+ * stays. */
+static bool holds_enough(const struct gn_gl_output *a, const struct gn_gl_output *b) {
+    if (a->window) return !b->scales || (a->framebuffer && (a->encoded || !b->encodes));
+    return a->scales == b->scales && a->shown_width_px == b->shown_width_px &&
+           a->shown_height_px == b->shown_height_px;
+}
+
 static bool has_same_storage(const struct gn_gl_output *a, const struct gn_gl_output *b) {
-    const bool is_shown_alike = a->scales == b->scales && a->shown_width_px == b->shown_width_px &&
-                                a->shown_height_px == b->shown_height_px;
     return a->window == b->window && a->width_px == b->width_px && a->height_px == b->height_px &&
            a->format == b->format && a->msaa_wanted == b->msaa_wanted && a->stencil == b->stencil &&
            a->encodes == b->encodes && a->finished == b->finished && a->gathers == b->gathers &&
-           (is_shown_alike || (a->msaa && a->window && !a->encodes));
+           holds_enough(a, b);
 }
 
 /* pixel: like the output of the plan, but 1 x 1 and never a window. */

@@ -69,6 +69,9 @@ void gn_gl_targets_choose(struct gn_gl *gl, uint32_t view);
 bool gn_gl_maps_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
 /* gl->targets.pixel as the plan's output. */
 bool gn_gl_pixel_ensure(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *err);
+/* The framebuffers that passes to the output, and to its encoded copy, draw to; 0: the window's. */
+GLuint gn_gl_output_drawn(const struct gn_gl_output *output);
+GLuint gn_gl_output_encoded(const struct gn_gl_output *output);
 /* The framebuffer that holds the finished picture, of shown_width_px, and its format. */
 GLuint gn_gl_output_finished(const struct gn_gl_output *output);
 enum gn_output_format gn_gl_output_format(const struct gn_gl_output *output);

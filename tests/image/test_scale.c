@@ -10,14 +10,14 @@
 #include "unit/check.h"
 #include "unit/gl_help.h"
 
-enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };
+enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT, WINDOW_PX = 16 }; /* as OSMesa's */
 
 static struct help_stage stage;
 static struct gn_frame_opts opts;
 static struct gn_captions *captions;
 static struct gn_err err;
 static struct gn_light many_lights[GN_LIGHTS_MAX + 2];
-static uint8_t small[PIXELS][4], shown[PIXELS][4], other[PIXELS][4];
+static uint8_t small[PIXELS][4], shown[PIXELS][4], other[PIXELS][4], again[PIXELS][4];
 
 static void open_with(const char *backend, const char *without) {
     help_stage_open(&stage, gn_stage_scene_make, backend, without, NULL);
@@ -115,14 +115,18 @@ static void test_it_is_the_smaller_picture(void **state) {
 }
 
 /* A last pass encodes what lights add up to, or maps its tone. */
-static void test_with_a_last_pass(void **state) {
-    (void)state;
+static void want_a_last_pass(void) {
     for (uint32_t i = 0; i < GN_LIGHTS_MAX + 2; i++) {
         many_lights[i] = stage.lights[0];
         many_lights[i].technique = "none";
     }
     help_stage_light(&stage, many_lights, GN_LIGHTS_MAX + 2);
     opts.tone = GN_TONE_ACES;
+}
+
+static void test_with_a_last_pass(void **state) {
+    (void)state;
+    want_a_last_pass();
     expect_larger(0.75f);
 }
 
@@ -238,6 +242,49 @@ static void test_no_object_is_made_twice(void **state) {
     assert_memory_equal(shown, other, sizeof shown);
 }
 
+static void draw_to_window(const struct gn_frame_output_opts *output, uint8_t picture[PIXELS][4]) {
+    const uint32_t shown_px = output->scaled_later ? WINDOW_PX / 2 : WINDOW_PX;
+    opts.output = *output;
+    gn_gl_set_window(stage.gl, &(struct gn_gl_window){shown_px, shown_px, false});
+    memset(picture, 0, sizeof *picture * PIXELS);
+    draw(picture);
+}
+
+/* A window's picture is scaled by a blit in one frame, by the display in the next, and not at all
+ * in the third: all three are right, and after the first nothing is made. */
+static void test_a_window_scaled_in_turn(void **state) {
+    (void)state;
+    for (uint32_t msaa = 0; msaa <= 4; msaa += 4)
+        for (int last_pass = 0; last_pass < 2; last_pass++) {
+            if (last_pass) want_a_last_pass();
+            const struct gn_frame_output_opts whole = {
+                .width_px = WINDOW_PX, .height_px = WINDOW_PX, .msaa = msaa, .unencoded = true};
+            struct gn_frame_output_opts blit = whole, later;
+            blit.scale = 0.5f;
+            later = blit;
+            later.scaled_later = true;
+            draw_to_window(&whole, other);
+            draw_to_window(&blit, shown);
+            draw_to_window(&later, small);
+            assert_memory_not_equal(small, other, sizeof small);
+            const uint64_t made = gn_gl_stats(stage.gl).objects_created;
+            draw_to_window(&blit, again);
+            assert_memory_equal(again, shown, sizeof again);
+            draw_to_window(&later, again);
+            assert_memory_equal(again, small, sizeof again);
+            assert_int_equal(gn_gl_stats(stage.gl).objects_created, made);
+            gn_gl_drop_view(stage.gl, 0);
+            draw_to_window(&later, again);
+            assert_memory_equal(again, small, sizeof again);
+            gn_gl_drop_view(stage.gl, 0);
+            draw_to_window(&blit, again);
+            draw_to_window(&whole, again);
+            assert_memory_equal(again, other, sizeof again);
+            gn_gl_drop_view(stage.gl, 0);
+        }
+    gn_gl_set_window(stage.gl, NULL);
+}
+
 static void test_data_are_not_scaled(void **state) {
     (void)state;
     opts.output.scale = 0.5f;
@@ -275,7 +322,9 @@ int main(void) {
         CASE(test_data_are_not_scaled),
         CASE(test_sides_are_even),
     };
+    const struct CMUnitTest of_a_window[] = {CASE(test_a_window_scaled_in_turn)};
     return cmocka_run_group_tests_name("egl", tests, open_egl, close_all) +
            cmocka_run_group_tests_name("osmesa", tests, open_osmesa, close_all) +
+           cmocka_run_group_tests_name("a window", of_a_window, open_osmesa, close_all) +
            cmocka_run_group_tests_name("egl without srgb", tests, open_egl_without_srgb, close_all);
 }
