@@ -16,9 +16,13 @@ static bool is_srgb(const struct gn_gl_output *o) {
     return gn_gl_output_format(o) == GN_OUTPUT_SRGB8;
 }
 
-static bool fits(const struct gn_gl_kept *k, const struct gn_gl_output *o) {
-    return k->framebuffer && k->width_px == o->shown_width_px &&
-           k->height_px == o->shown_height_px && k->srgb == is_srgb(o);
+static bool fits(const struct gn_gl_kept *k, uint32_t width_px, uint32_t height_px, bool srgb) {
+    return k->framebuffer && k->width_px == width_px && k->height_px == height_px &&
+           k->srgb == srgb;
+}
+
+static bool fits_output(const struct gn_gl_kept *k, const struct gn_gl_output *o) {
+    return fits(k, o->shown_width_px, o->shown_height_px, is_srgb(o));
 }
 
 void gn_gl_kept_finish(struct gn_gl *gl) {
@@ -31,17 +35,18 @@ void gn_gl_kept_finish(struct gn_gl *gl) {
     *k = (struct gn_gl_kept){0};
 }
 
-bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
+bool gn_gl_keep_prepare(struct gn_gl *gl, uint32_t width_px, uint32_t height_px,
+                        struct gn_err *err) {
     struct gn_gl_kept *k = &gl->kept;
     const struct gn_gl_output *o = gl->targets.output;
     const enum gn_output_format format = gn_gl_output_format(o);
     if (!o->made || (format != GN_OUTPUT_SRGB8 && format != GN_OUTPUT_LINEAR8))
         return gn_fail(err, "the last picture is not 8 bits per channel: cannot keep a copy");
-    if (fits(k, o)) return true;
+    if (fits(k, width_px, height_px, is_srgb(o))) return true;
     gn_gl_object_destroy(gl, GN_GL_FRAMEBUFFER, &k->framebuffer);
     gn_gl_object_destroy(gl, GN_GL_TEXTURE, &k->texture);
-    k->width_px = o->shown_width_px;
-    k->height_px = o->shown_height_px;
+    k->width_px = width_px;
+    k->height_px = height_px;
     k->srgb = is_srgb(o);
     k->texture =
         gn_gl_texture_make(gl, 1, k->srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, k->width_px, k->height_px);
@@ -62,9 +67,10 @@ bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err) {
 }
 
 bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err) {
-    if (!gn_gl_keep_prepare(gl, err)) return false;
+    const struct gn_gl_output *o = gl->targets.output;
+    if (!gn_gl_keep_prepare(gl, o->shown_width_px, o->shown_height_px, err)) return false;
     const struct gn_gl_kept *k = &gl->kept;
-    const GLuint from = gn_gl_output_finished(gl->targets.output);
+    const GLuint from = gn_gl_output_finished(o);
     const GLint w = (GLint)k->width_px, h = (GLint)k->height_px;
     gn_gl_set_scissor(gl, NULL);
     gn_gl_bind_framebuffer(gl, from);
@@ -77,7 +83,7 @@ bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err) {
 void gn_gl_lay_over(struct gn_gl *gl, float share) {
     const struct gn_gl_kept *k = &gl->kept;
     const struct gn_gl_output *o = gl->targets.output;
-    if (!fits(k, o) || !k->program) return;
+    if (!fits_output(k, o) || !k->program) return;
     gn_gl_bind_framebuffer(gl, gn_gl_output_finished(o));
     gn_gl_set_whole(gl, o->shown_width_px, o->shown_height_px, GN_BLEND_ALPHA);
     gn_gl_use_program(gl, k->program);
@@ -94,7 +100,7 @@ void gn_gl_lay_beside(struct gn_gl *gl, uint32_t columns_px) {
     const GLuint to = gn_gl_output_finished(o);
     const GLint w = (GLint)(columns_px < o->shown_width_px ? columns_px : o->shown_width_px),
                 h = (GLint)o->shown_height_px;
-    if (!fits(k, o) || w == 0) return;
+    if (!fits_output(k, o) || w == 0) return;
     gn_gl_set_scissor(gl, NULL);
     gn_gl_set_color_write(gl, true);
     gn_gl_bind_framebuffer(gl, to);

@@ -121,9 +121,10 @@ void gn_gl_frame_was_long(struct gn_gl *gl);
 bool gn_gl_run(struct gn_gl *gl, const struct gn_plan *plan, double *pass_ms, struct gn_err *err);
 
 /* Keeps a copy of the last picture, 8 bits per channel, to be blended over later ones: call it
- * between gn_gl_run() and presenting. prepare() makes its objects, for the output of the last plan.
- */
-bool gn_gl_keep_prepare(struct gn_gl *gl, struct gn_err *err);
+ * between gn_gl_run() and presenting. prepare() makes its objects, for a picture of that size in
+ * the format of the last one. */
+bool gn_gl_keep_prepare(struct gn_gl *gl, uint32_t width_px, uint32_t height_px,
+                        struct gn_err *err);
 bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err);
 /* Blends the kept picture over the current one. share: its weight, 0..1. No effect if sizes differ.
  */

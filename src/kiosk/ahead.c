@@ -246,7 +246,8 @@ bool gn_show_has_work(const struct gn_show_screen *s) {
 static bool work_once(struct gn_show_screen *s, int64_t until_ns) {
     if (s->rules.fade_ns > 0 && !s->fade.prepared && s->show->counts.frames > 0) {
         struct gn_err unused = {0}; /* the first fade reports a failure */
-        gn_gl_keep_prepare(s->stage.gl, &unused);
+        const struct gn_screen *screen = &s->stage.display.screen;
+        gn_gl_keep_prepare(s->stage.gl, screen->width_px, screen->height_px, &unused);
         return s->fade.prepared = true;
     }
     if (work_on_staged(s)) return true;
