@@ -74,6 +74,7 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
     }
     gn_show_fit_to_screen(s);
     if (!s->ahead.alone) gn_show_work(s);
+    const bool made = gn_occluder_works(s->stage.occluder) || gn_detailer_works(s->stage.detailer);
     const unsigned long allocations = gn_alloc_count();
     const uint64_t objects = gn_gl_stats(s->stage.gl).objects_created;
     gn_show_take_view(s, &view, seen_ns);
@@ -104,7 +105,7 @@ static bool draw_frame(struct gn_show_screen *s, bool *behind, struct gn_err *er
 
     /* count allocations, except in the first frame and while a thread loads or makes something; GL
      * objects not where a mode begins either: its maps are made then */
-    if (s->show->counts.frames++ > 0 && !gn_loader_is_busy(s->show->scenes.loader) &&
+    if (s->show->counts.frames++ > 0 && !made && !gn_loader_is_busy(s->show->scenes.loader) &&
         !gn_occluder_works(s->stage.occluder) && !gn_detailer_works(s->stage.detailer)) {
         s->show->counts.allocations += gn_alloc_count() - allocations;
         if (view.mode == s->drawn.mode && view.scene == s->drawn.scene)
