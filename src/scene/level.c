@@ -76,6 +76,17 @@ static const uint32_t *store(struct maker *m, uint32_t count, struct gn_level *l
     return out;
 }
 
+/* Takes the level, whose corners are the last, in place of those that have more triangles and are
+ * not nearer. */
+static void append(struct gn_detail *detail, struct gn_levels *levels, struct gn_level level) {
+    const uint32_t *corners = detail->indices + level.first_index;
+    while (levels->count > 0 && levels->at[levels->count - 1].error_m >= level.error_m)
+        detail->index_count = level.first_index = levels->at[--levels->count].first_index;
+    memmove(detail->indices + level.first_index, corners, level.index_count * sizeof *corners);
+    detail->index_count += level.index_count;
+    levels->at[levels->count++] = level;
+}
+
 static void make_levels(struct maker *m, uint32_t number, const atomic_bool *cancel) {
     const struct gn_geometry *geometry = &m->scene->geometries[number];
     const struct gn_box *box = &geometry->box;
@@ -97,13 +108,11 @@ static void make_levels(struct maker *m, uint32_t number, const atomic_bool *can
         if ((float)count > KEPT * (float)kept) continue;
         struct gn_level *level = &levels->at[levels->count];
         const uint32_t *corners = store(m, count, level);
-        level->error_m = fmaxf(
-            before, gn_level_error(m->measure, number, corners, count, MEASURED * error * size));
+        level->error_m =
+            gn_level_error(m->measure, number, corners, count, before, MEASURED * error * size);
         if (!isfinite(level->error_m)) return;
-        m->detail->index_count += kept = count;
-        while (levels->count > 0 && levels->at[levels->count - 1].error_m >= level->error_m)
-            levels->count--; /* of more triangles, and not nearer */
-        levels->at[levels->count++] = *level;
+        kept = count;
+        append(m->detail, levels, *level);
     }
 }
 
@@ -116,7 +125,7 @@ struct gn_detail *gn_detail_make(const struct gn_scene *scene, const atomic_bool
     if (most < 3 * GN_LEVEL_TRIANGLES || !gn_meshopt_is_read()) return NULL;
     struct maker m = {.scene = scene,
                       .detail = gn_xalloc(1, sizeof *m.detail),
-                      .measure = gn_level_measure_create(scene),
+                      .measure = gn_level_measure_create(scene, cancel),
                       .local = gn_xalloc(b->vertex_count, sizeof *m.local),
                       .global = gn_xalloc(most, sizeof *m.global),
                       .positions = gn_xalloc(most, 3 * sizeof *m.positions),

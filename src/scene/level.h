@@ -39,11 +39,13 @@ struct gn_detail *gn_detail_make(const struct gn_scene *scene, const atomic_bool
 void gn_detail_destroy(struct gn_detail *detail); /* NULL is legal */
 
 /* level_error.c: gn_level.error_m of a geometry's level, by samples of its vertices that are in it
- * no more, each at most most_m off. */
+ * no more, each at most most_m off. known_m: what it is at least, in mesh space. INFINITY: a sample
+ * of a deformed mesh is further off than most_m, or *cancel became true, which may be NULL. */
 struct gn_level_measure;
-struct gn_level_measure *gn_level_measure_create(const struct gn_scene *scene);
+struct gn_level_measure *gn_level_measure_create(const struct gn_scene *scene,
+                                                 const atomic_bool *cancel);
 void gn_level_measure_destroy(struct gn_level_measure *measure);
 float gn_level_error(struct gn_level_measure *measure, uint32_t geometry, const uint32_t *corners,
-                     size_t count, float most_m);
+                     size_t count, float known_m, float most_m);
 
 #endif

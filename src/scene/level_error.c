@@ -34,6 +34,7 @@ struct needs { /* what of a vertex its materials show */
 };
 struct gn_level_measure {
     const struct gn_scene *scene;
+    const atomic_bool *cancel;
     uint8_t *in_level; /* by vertex of the scene */
     struct sample samples[SAMPLES];
     float errors[SAMPLES];
@@ -55,9 +56,11 @@ static const float *position_of(const struct gn_scene *scene, uint32_t vertex) {
     return scene->buffers.positions + 3 * (size_t)vertex;
 }
 
-struct gn_level_measure *gn_level_measure_create(const struct gn_scene *scene) {
+struct gn_level_measure *gn_level_measure_create(const struct gn_scene *scene,
+                                                 const atomic_bool *cancel) {
     struct gn_level_measure *m = gn_xalloc(1, sizeof *m);
     m->scene = scene;
+    m->cancel = cancel;
     m->in_level = gn_xalloc(scene->buffers.vertex_count, sizeof *m->in_level);
     return m;
 }
@@ -287,7 +290,7 @@ static float measure_samples(struct gn_level_measure *m, const struct needs *nee
             else
                 gn_pose_corner(&m->pose, item, vertex, place[k]);
         }
-        m->errors[i] = moved = m->most_m;
+        m->errors[i] = moved = item == UINT32_MAX ? m->most_m : INFINITY;
         if (!s->lost)
             m->errors[i] = error_of(&m->scene->buffers, needs, s, INFINITY, place, &moved);
         most = fmaxf(most, moved);
@@ -347,7 +350,6 @@ static float measure_poses(struct gn_level_measure *m, const struct needs *needs
     const struct gn_scene *scene = m->scene;
     const int clips = (int)scene->animation.clip_count;
     float most = 0;
-    if (clips > CLIPS) return INFINITY;
     for (int clip = GN_POSE_NONE; clip < clips; clip++) {
         if (m->has_pose)
             gn_pose_choose(&m->pose, clip);
@@ -355,6 +357,7 @@ static float measure_poses(struct gn_level_measure *m, const struct needs *needs
             gn_pose_init(&m->pose, scene, clip);
         m->has_pose = true;
         for (int p = 0; p < (clip == GN_POSE_NONE ? 1 : POSES); p++) {
+            if (m->cancel && atomic_load(m->cancel)) return INFINITY;
             gn_poses_step(&m->pose, p, POSES);
             for (uint32_t i = 0; i < scene->item_count; i++)
                 if (scene->items[i].geometry == geometry && gn_item_is_deformed(&scene->items[i]))
@@ -365,17 +368,18 @@ static float measure_poses(struct gn_level_measure *m, const struct needs *needs
 }
 
 float gn_level_error(struct gn_level_measure *m, uint32_t number, const uint32_t *corners,
-                     size_t count, float most_m) {
+                     size_t count, float known_m, float most_m) {
     const struct gn_geometry *geometry = &m->scene->geometries[number];
     struct grid grid = {.positions = m->scene->buffers.positions, .corners = corners};
     bool deformed;
     const struct needs needs = find_needs(m->scene, number, &deformed);
+    if (deformed && m->scene->animation.clip_count > CLIPS) return INFINITY;
     build_grid(&grid, &geometry->box, count);
     m->most_m = most_m;
     take_samples(m, geometry, &needs, &grid, count, deformed ? POSED_SAMPLES : SAMPLES);
     free(grid.first);
     free(grid.triangles);
-    float error = measure_samples(m, &needs, UINT32_MAX);
-    if (deformed) error = fmaxf(error, measure_poses(m, &needs, number));
-    return error;
+    /* a pose may have any scale, so nothing of mesh space holds there */
+    return deformed ? measure_poses(m, &needs, number)
+                    : fmaxf(known_m, measure_samples(m, &needs, UINT32_MAX));
 }
