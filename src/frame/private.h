@@ -173,9 +173,9 @@ struct gn_selection {
 uint32_t gn_frame_program(struct gn_frame *frame, const struct gn_program_key *key);
 struct gn_pass *gn_frame_begin_pass(struct gn_frame *frame, enum gn_pass_kind kind);
 void gn_frame_end_pass(struct gn_frame *frame);
-/* Begins a pass to the output. */
 /* Where the scene is drawn at another size, the pass's target is the finished picture. */
 void gn_frame_to_shown(const struct gn_frame *frame, struct gn_pass *pass);
+/* Begins a pass to the output. */
 struct gn_pass *gn_frame_picture_pass(struct gn_frame *frame, const char *label);
 /* The same with what the programs of a group of lights read; later groups are added by blending. */
 struct gn_pass *gn_frame_lit_pass(struct gn_frame *frame, const char *label, uint32_t group);

@@ -59,12 +59,12 @@ double gn_show_scale(const struct gn_show_screen *s) {
  * sharper in some moments than in others is worse than one that is late. */
 static void choose_scale(struct gn_show_screen *s) {
     const struct gn_screen *screen = &s->stage.display.screen;
-    const struct gn_cost_gpu *gpu = gn_cost_gpu_of(gn_gl_caps(s->stage.gl)->renderer);
     struct gn_show_scaling *scaling = &s->scaling;
     const bool known = scaling->automatic > 0 && scaling->width_px == screen->width_px &&
                        scaling->height_px == screen->height_px;
     if (known || !isnan(s->stage.settings->display.scale) || s->show->reload.first) return;
     *scaling = (struct gn_show_scaling){1, screen->width_px, screen->height_px};
+    const struct gn_cost_gpu *gpu = gn_cost_gpu_of(gn_gl_caps(s->stage.gl)->renderer);
     const double period_ms = fmax((double)screen->period_ns * 1e-6, LEAST_PERIOD_MS);
     if (gpu) scaling->automatic = gn_stage_scale(&s->stage, gpu, period_ms);
 }
@@ -96,8 +96,8 @@ void gn_show_scale_frame(struct gn_show_screen *s, bool bare) {
                                       gn_frame_scaled_px(output->height_px, output->scale),
                                       screen->srgb};
     const bool scales = output->scale < 1.0f;
-    output->scaled_later = scales && bare && !screen->copy_to &&
-                           gn_display_scale(&s->stage.display, part.width_px, part.height_px);
+    output->scaled_later =
+        scales && bare && gn_display_scale(&s->stage.display, part.width_px, part.height_px);
     s->context.scaled_by = output->scaled_later ? "plane" : scales ? "blit" : "none";
     if (output->scaled_later) gn_gl_set_window(s->stage.gl, &part);
 }

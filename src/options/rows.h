@@ -176,7 +176,7 @@ GN_OPTION(.name = "touch-rotate", .section = "display", .kind = GN_KIND_CHOICE, 
 GN_OPTION(.name = "pixel-shift", .section = "display", .kind = GN_KIND_INT, .min = 0, .max = 64, .value = "PX", .unit = "pixels", .fallback = "0",
           .help = "move the picture by a pixel a minute, up to so many to each side, against burn-in; 0: do not", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.pixel_shift_px))
 GN_OPTION(.name = "scale", .section = "display", .kind = GN_KIND_EV, .min = 0.5, .max = 1, .value = "auto|X", .fallback = "auto",
-          .help = "draw the scene at this share of the screen's width and height, and scale it; texts stay sharp; auto: as large as a GPU whose speed is known draws 60 times a second, else 1", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.scale))
+          .help = "draw the scene at this share of the screen's width and height, and scale it; texts stay sharp; auto: the largest that a GPU whose speed is known draws in one refresh of the screen, else in as few as it can; 1 with other GPUs", .commands = KIOSK, .change = GN_CHANGE_RELOAD, .offset = FIELD(display.scale))
 /* what a kiosk does by itself */
 GN_OPTION(.name = "idle", .section = "kiosk", .kind = GN_KIND_CHOICE, .choices = idles, .value = "WHAT", .fallback = "none",
           .help = "after the idle timeout go to the first mode, or to the next", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.idle))

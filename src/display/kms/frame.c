@@ -73,6 +73,7 @@ static void handle_commit_error(struct gn_kms *k, struct gn_kms_frame *frame, in
         k->scaling.can = false;
         gn_kms_discard(k, frame);
         k->screen.damaged = true;
+        k->due.again_ns = GN_KMS_NEVER;
         gn_flip_refused(&k->flip, now_ns);
         return;
     }
