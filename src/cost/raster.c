@@ -18,6 +18,8 @@ static const int8_t places[3][4][2] = {/* of samples, sixteenths of a pixel off 
                                        {{4, 4}, {-4, -4}},
                                        {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}};
 
+static int place_kind(const struct gn_raster *r) { return r->samples == 4 ? 2 : r->samples - 1; }
+
 void gn_raster_create(struct gn_raster *r, int width_px, int height_px, int samples) {
     *r = (struct gn_raster){.width_px = width_px, .height_px = height_px, .samples = samples};
     r->depth = gn_xalloc((size_t)width_px * (size_t)height_px * (size_t)samples, sizeof *r->depth);
@@ -31,9 +33,11 @@ void gn_raster_destroy(struct gn_raster *r) {
 }
 
 void gn_raster_clear(struct gn_raster *r, const struct gn_raster_rect *rect) {
-    for (int y = rect->y; y < rect->y + rect->height; y++)
-        for (int i = rect->x * r->samples; i < (rect->x + rect->width) * r->samples; i++)
-            r->depth[(size_t)y * (size_t)(r->width_px * r->samples) + (size_t)i] = 1.0f;
+    const size_t samples = (size_t)r->samples, row = (size_t)r->width_px * samples;
+    for (int y = rect->y; y < rect->y + rect->height; y++) {
+        float *first = r->depth + (size_t)y * row + (size_t)rect->x * samples;
+        for (size_t i = 0; i < (size_t)rect->width * samples; i++) first[i] = 1.0f;
+    }
 }
 
 /* ---- clipping ---- */
@@ -83,6 +87,9 @@ struct setup {
     double over_w[3]; /* at the corner opposite of each edge */
     double attributes[3][3];
     int64_t offsets[3][4]; /* of the samples, for each edge */
+    int64_t pixels[3][4];  /* of a quad's pixels from the first */
+    int64_t furthest[3];   /* the largest of a quad's samples, off the middle of its first pixel */
+    double z_offsets[4];   /* of the samples */
     int least[2], end[2];  /* pixels, even */
 };
 
@@ -123,6 +130,19 @@ static void set_depth(const double p[3][2], const double z[3], struct setup *s) 
     s->z[0] = z[0] - s->z[1] * p[0][0] - s->z[2] * p[0][1];
 }
 
+/* Of the samples and of a quad's pixels for edge i, and the largest of both. */
+static void set_offsets(const struct gn_raster *r, struct setup *s, int i) {
+    const struct edge *e = &s->edges[i];
+    int64_t most = INT64_MIN;
+    for (int k = 0; k < r->samples; k++) {
+        const int8_t *place = places[place_kind(r)][k];
+        s->offsets[i][k] = (e->a * place[0] + e->b * place[1]) * (STEPS / 16);
+        most = s->offsets[i][k] > most ? s->offsets[i][k] : most;
+    }
+    for (int k = 0; k < 4; k++) s->pixels[i][k] = STEPS * (k % 2 * e->a + k / 2 * e->b);
+    s->furthest[i] = most + STEPS * ((e->a > 0 ? e->a : 0) + (e->b > 0 ? e->b : 0));
+}
+
 /* False: it has no area, or the side that is left out is seen. */
 static bool set_up(const struct gn_raster *r, const struct gn_raster_vertex *const v[3],
                    struct setup *s) {
@@ -142,7 +162,6 @@ static bool set_up(const struct gn_raster *r, const struct gn_raster_vertex *con
         (r->cull == GN_RASTER_CULL_FRONT && front))
         return false;
     const int order[3] = {0, s->area > 0 ? 1 : 2, s->area > 0 ? 2 : 1};
-    const int kind = r->samples == 4 ? 2 : r->samples - 1;
     set_depth((const double(*)[2])at, z, s);
     set_bounds(r, p, s);
     for (int i = 0; i < 3; i++) {
@@ -150,10 +169,11 @@ static bool set_up(const struct gn_raster *r, const struct gn_raster_vertex *con
         s->edges[i] = edge_of(p[from], p[to]);
         s->over_w[i] = 1 / v[order[i]]->clip[3];
         memcpy(s->attributes[i], v[order[i]]->attributes, sizeof s->attributes[i]);
-        for (int k = 0; k < r->samples; k++)
-            s->offsets[i][k] =
-                (s->edges[i].a * places[kind][k][0] + s->edges[i].b * places[kind][k][1]) *
-                (STEPS / 16);
+        set_offsets(r, s, i);
+    }
+    for (int k = 0; k < r->samples; k++) {
+        const int8_t *place = places[place_kind(r)][k];
+        s->z_offsets[k] = (s->z[1] * place[0] + s->z[2] * place[1]) / 16.0;
     }
     return true;
 }
@@ -171,17 +191,15 @@ static bool has_hole(const struct gn_raster *r, const struct setup *s, const int
 /* Returns whether a sample of the pixel is in front; e: of its middle. */
 static bool draw_pixel(struct gn_raster *r, const struct setup *s, int x, int y, const int64_t e[3],
                        bool *reached) {
-    const int kind = r->samples == 4 ? 2 : r->samples - 1;
     float *depth = r->depth + ((size_t)y * (size_t)r->width_px + (size_t)x) * (size_t)r->samples;
+    const double middle = s->z[0] + s->z[1] * (x + 0.5) + s->z[2] * (y + 0.5);
     bool shown = false, hole = false;
     for (int k = 0; k < r->samples; k++) {
-        if (e[0] + s->offsets[0][k] < 0 || e[1] + s->offsets[1][k] < 0 ||
-            e[2] + s->offsets[2][k] < 0)
-            continue;
+        if (((e[0] + s->offsets[0][k]) | (e[1] + s->offsets[1][k]) | (e[2] + s->offsets[2][k])) < 0)
+            continue; /* one of them is */
         *reached = true;
-        const double sx = x + 0.5 + places[kind][k][0] / 16.0,
-                     sy = y + 0.5 + places[kind][k][1] / 16.0;
-        const float z = (float)fmin(fmax(s->z[0] + s->z[1] * sx + s->z[2] * sy, 0), 1);
+        const double at = middle + s->z_offsets[k];
+        const float z = at < 0 ? 0 : at > 1 ? 1 : (float)at;
         if (r->tests_depth && z > depth[k]) continue;
         if (!shown && r->is_hole) hole = has_hole(r, s, e);
         shown = true;
@@ -190,19 +208,39 @@ static bool draw_pixel(struct gn_raster *r, const struct setup *s, int x, int y,
     return shown;
 }
 
-static void draw_quad(struct gn_raster *r, const struct setup *s, int x, int y, bool *reached) {
+/* e: of the middle of its first pixel. */
+static void draw_quad(struct gn_raster *r, const struct setup *s, int x, int y,
+                      const int64_t first[3], bool *reached) {
     int shown = 0;
     for (int i = 0; i < 4; i++) {
         const int px = x + i % 2, py = y + i / 2;
         if (px < s->least[0] || px >= s->end[0] || py < s->least[1] || py >= s->end[1]) continue;
         int64_t e[3];
-        for (int k = 0; k < 3; k++)
-            e[k] = s->edges[k].a * (px * STEPS + STEPS / 2) +
-                   s->edges[k].b * (py * STEPS + STEPS / 2) + s->edges[k].c;
+        for (int k = 0; k < 3; k++) e[k] = first[k] + s->pixels[k][i];
         shown += draw_pixel(r, s, px, py, e, reached);
     }
     r->count.pixels += (uint64_t)shown;
     r->count.lanes += shown > 0 ? 4 : 0;
+}
+
+/* Whether samples of a quad may be inside: none is where an edge is under 0 at the sample that is
+ * furthest inside of it. */
+static bool reaches_quad(const struct setup *s, const int64_t first[3]) {
+    return ((first[0] + s->furthest[0]) | (first[1] + s->furthest[1]) |
+            (first[2] + s->furthest[2])) >= 0;
+}
+
+/* The quads of a row from x to right. */
+static void draw_row(struct gn_raster *r, const struct setup *s, int x, int right, int y,
+                     bool *reached) {
+    int64_t e[3];
+    for (int k = 0; k < 3; k++)
+        e[k] = s->edges[k].a * (x * STEPS + STEPS / 2) + s->edges[k].b * (y * STEPS + STEPS / 2) +
+               s->edges[k].c;
+    for (; x < right; x += 2) {
+        if (reaches_quad(s, e)) draw_quad(r, s, x, y, e, reached);
+        for (int k = 0; k < 3; k++) e[k] += 2 * STEPS * s->edges[k].a;
+    }
 }
 
 /* Whether the triangle may reach pixels of a block: the greatest of each edge is at one corner. */
@@ -226,8 +264,7 @@ static void draw_triangle(struct gn_raster *r, const struct gn_raster_vertex *co
             const int top = y + BLOCK < s.end[1] ? y + BLOCK : s.end[1],
                       right = x + BLOCK < s.end[0] ? x + BLOCK : s.end[0];
             for (int qy = y > s.least[1] ? y : s.least[1] & ~1; qy < top; qy += 2)
-                for (int qx = x > s.least[0] ? x : s.least[0] & ~1; qx < right; qx += 2)
-                    draw_quad(r, &s, qx, qy, &reached);
+                draw_row(r, &s, x > s.least[0] ? x : s.least[0] & ~1, right, qy, &reached);
         }
     r->count.triangles += reached;
 }
