@@ -65,7 +65,7 @@ table() {
     printf '\n|---|%s\n' "$(for board in $boards; do printf -- '---|'; done)"
     # shellcheck disable=SC2016
     {
-        row '`cone` (the default for a made light)' "$folder/plain.gltf" --shadow cone
+        row '`cone` (the default for the key light)' "$folder/plain.gltf" --shadow cone
         row '`cone` and a normal map' "$folder/normals.gltf" --shadow cone
         row '`cone`, `taps = 8`' "$folder/plain.gltf" --shadow cone --taps 8
         row '`pcf`' "$folder/plain.gltf" --shadow pcf

@@ -48,10 +48,9 @@ static double ms_of(const json_t *run) { return json_number_value(field(run, "ms
 /* ---- a row ---------------------------------------------------------------------------------- */
 
 void gn_report_print_head(FILE *to) {
-    fputs(
-        "| GPU | driver | machine | gnomon | self-test | not proved | default scene, `pcf` | made "
-        "light, `cone` |\n|---|---|---|---|---|---|---|---|\n",
-        to);
+    fputs("| GPU | driver | machine | gnomon | self-test | not proved | default scene, `pcf` | key "
+          "light, `cone` |\n|---|---|---|---|---|---|---|---|\n",
+          to);
 }
 
 static void print_machine(const json_t *report, FILE *to) {
