@@ -11,6 +11,7 @@ BEGIN {
     may["environment"] = "core image"
     may["scene"] = "core image"
     may["shape"] = "core"
+    may["dial"] = "core shape"
     may["bake"] = "core image scene"
     may["shadow"] = "core scene"
     may["truth"] = "core scene"
@@ -19,7 +20,7 @@ BEGIN {
     may["gl"] = "core environment scene shadow frame caption"
     may["caption"] = may["display"] = may["input"] = may["take"] = "core"
     may["import"] = "core image" # a program of its own
-    may["options"] = "core scene shadow frame cost display input take"
+    may["options"] = "core dial scene shadow frame cost display input take"
     may["stage"] = "core image environment scene shadow truth frame gl display input caption options cost"
     may["kiosk"] = may["stage"] " stage take"
     may["cli"] = may["kiosk"] " kiosk bake shape dial cost"
