@@ -289,7 +289,7 @@ $(B)/gen/embedded.c: $(O)/host/embed $(B)/sources $(EMBED)
 # ---- programs that run while building, and what they make ----------------------------------
 HOST     = $(HOSTCC) -std=c11 -D_GNU_SOURCE -O2 -Wall -Wextra -Isrc -Iassets -I$(B)/gen -o $@ \
            $(filter %.c,$^) $(HOST_LIBS) -lm
-ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c))
+ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c)) $(wildcard src/shape/*.c)
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
 MAN_C   := $(filter-out $(patsubst %,src/options/%.c,args change content file ini lesson),$(wildcard src/options/*.c)) \
            $(addprefix src/,cli/help.c core/arena.c core/err.c core/key.c core/text.c \
@@ -298,7 +298,7 @@ $(O)/host/embed: board/host/embed.c
 $(O)/host/man $(O)/host/completion: $(O)/host/%: board/host/%.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h
 $(O)/host/man $(O)/host/completion: HOST_LIBS = $(shell pkg-config --cflags libdrm)
 $(HOST_ASSETS): HOST_LIBS = $(shell pkg-config --cflags --libs jansson libpng)
-$(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h)
+$(HOST_ASSETS): $(O)/host/%: assets/%.c $(ASSET_C) $(wildcard assets/*.h src/shape/*.h) src/core/file.h
 $(O)/host/make_book: $(wildcard assets/book/*.c assets/book/*.h)
 $(O)/host/make_studio: $(wildcard src/environment/*.c) $(addprefix src/,image/hdr_read.c core/arena.c core/err.c core/hash.c core/text.c) \
     $(wildcard src/environment/*.h)

@@ -3,7 +3,7 @@
 #ifndef GN_ASSETS_COARSE_H
 #define GN_ASSETS_COARSE_H
 
-#include "shapes.h"
+#include "shape/shapes.h"
 
 /* A head that looks along the pen's +z, its chin at y = 0: brow, eyes, nose, chin, neck; hollows
  * and ridges. Normals are the mean of the faces', by angle. */

@@ -1,7 +1,7 @@
 #include "dial.h"
 
-#include "outline.h"
-#include "shapes.h"
+#include "shape/outline.h"
+#include "shape/shapes.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "form.h"
 
-#include "shapes.h"
+#include "shape/shapes.h"
 
 #include <assert.h>
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef GN_ASSETS_GARDEN_H
 #define GN_ASSETS_GARDEN_H
 
-#include "shapes.h"
+#include "shape/shapes.h"
 
 #define GN_RADIANS  (float)(3.14159265358979 / 180)
 #define GN_LATITUDE 50.0f /* degrees north */

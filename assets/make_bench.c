@@ -2,7 +2,7 @@
  * Illuminance and hemisphere are chosen so that the picture is plain Lambert: colour x (0.25 + 0.75
  * n.l). */
 #include "glb.h"
-#include "shapes.h"
+#include "shape/shapes.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -103,7 +103,7 @@ int main(int argc, char **argv) {
         fprintf(stderr, "usage: make_bench s1|s2 OUT.glb\n");
         return 2;
     }
-    struct gn_glb *glb = gn_glb_create("CC0 1.0, the authors of gnomon");
+    struct gn_glb *glb = gn_glb_create("gnomon assets", "CC0 1.0, the authors of gnomon");
     gn_glb_scene_extras(glb, "{\"gnomon_sky\":[0.25,0.25,0.25],\"gnomon_ground\":[0.25,0.25,0.25],"
                              "\"gnomon_background\":[0.2,0.3,0.4]}");
     add_ground(glb);

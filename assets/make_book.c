@@ -14,7 +14,8 @@ static const struct {
 int main(int argc, char **argv) {
     for (int i = 0; argc == 3 && i < GN_COUNT(scenes); i++) {
         if (strcmp(argv[1], scenes[i].name) != 0) continue;
-        struct gn_book book = {.glb = gn_glb_create("CC0 1.0, the authors of gnomon")};
+        struct gn_book book = {
+            .glb = gn_glb_create("gnomon assets", "CC0 1.0, the authors of gnomon")};
         scenes[i].make(&book);
         const bool ok = gn_glb_write(book.glb, argv[2]);
         gn_shape_finish(&book.shape);

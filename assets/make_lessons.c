@@ -3,9 +3,9 @@
  * src/options/lesson_rows.h. */
 #include "glb.h"
 #include "lamp.h"
-#include "outline.h"
 #include "paint.h"
-#include "shapes.h"
+#include "shape/outline.h"
+#include "shape/shapes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -353,7 +353,8 @@ static const struct {
 int main(int argc, char **argv) {
     for (size_t i = 0; argc == 3 && i < sizeof scenes / sizeof *scenes; i++) {
         if (strcmp(argv[1], scenes[i].name) != 0) continue;
-        struct lesson lesson = {.glb = gn_glb_create("CC0 1.0, the authors of gnomon")};
+        struct lesson lesson = {
+            .glb = gn_glb_create("gnomon assets", "CC0 1.0, the authors of gnomon")};
         if (scenes[i].make != make_model) /* which has no sky of its own */
             gn_glb_scene_extras(lesson.glb,
                                 "{\"gnomon_sky\":[0.16,0.17,0.19],\"gnomon_ground\":[0.1,0.1,0.1],"

@@ -6,9 +6,9 @@
  * whose visible side faces away from the light is dark; pixels outside of a spot's cone and of the
  * background are lit. */
 #include "glb.h"
-#include "outline.h"
 #include "paint.h"
-#include "shapes.h"
+#include "shape/outline.h"
+#include "shape/shapes.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -199,7 +199,7 @@ static void add_camera(struct gn_glb *glb) {
 }
 
 static bool write_scene(const struct scene *scene, const char *path) {
-    struct gn_glb *glb = gn_glb_create("CC0 1.0, the authors of gnomon");
+    struct gn_glb *glb = gn_glb_create("gnomon assets", "CC0 1.0, the authors of gnomon");
     for (int i = 0; i < scene->part_count; i++) {
         const struct part *part = &scene->parts[i];
         int mesh = gn_glb_mesh(glb, part->name, gn_glb_geometry(glb, &part->shape),

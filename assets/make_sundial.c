@@ -179,7 +179,7 @@ int main(int argc, char **argv) {
         return 2;
     }
     struct gn_garden g;
-    gn_garden_init(&g, gn_glb_create("CC0 1.0, the authors of gnomon"));
+    gn_garden_init(&g, gn_glb_create("gnomon assets", "CC0 1.0, the authors of gnomon"));
     gn_glb_scene_extras(g.glb,
                         "{\"gnomon_sky\":[0.19,0.23,0.29],\"gnomon_ground\":[0.12,0.1,0.075],"
                         "\"gnomon_background\":[0.5,0.66,0.84]}");

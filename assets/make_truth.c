@@ -3,8 +3,8 @@
  * instead. */
 #include "coarse.h"
 #include "glb.h"
-#include "outline.h"
-#include "shapes.h"
+#include "shape/outline.h"
+#include "shape/shapes.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -402,7 +402,7 @@ static void add_camera(struct build *b) {
 static void init_build(struct build *b, const struct scene *scene, uint32_t seed) {
     *b = (struct build){.scene = scene, .seed = seed * 2654435761u + 1, .unit = scene->size / 10};
     for (int i = 0; i < 8; i++) chance(b, 0, 1);
-    b->glb = gn_glb_create("CC0 1.0, the authors of gnomon");
+    b->glb = gn_glb_create("gnomon assets", "CC0 1.0, the authors of gnomon");
     gn_glb_scene_extras(b->glb, "{\"gnomon_sky\":[0.2,0.2,0.2],\"gnomon_ground\":[0.1,0.1,0.1],"
                                 "\"gnomon_background\":[0.3,0.4,0.5]}");
 }

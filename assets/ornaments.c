@@ -2,7 +2,7 @@
 #include "garden.h"
 
 #include "glb.h"
-#include "outline.h"
+#include "shape/outline.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -10,7 +10,7 @@ find src -name '*.c' | sort | while read -r source; do
     [ ! -e "$object" ] || echo "$object"
 done | xargs "${NM:-nm}" -A -P | awk -v objects="$objects/src/" '
 BEGIN {
-    split("core image environment scene bake truth shadow caption frame cost gl display input take options stage kiosk cli", rooms, " ")
+    split("core image shape dial environment scene bake truth shadow caption frame cost gl display input take options stage kiosk cli", rooms, " ")
     for (i in rooms) rank[rooms[i]] = i
     rank["import"] = 2.5 # a program of its own, on core and image
     rank["main.c"] = 99

@@ -5,9 +5,9 @@
 #include "form.h"
 #include "glb.h"
 #include "lamp.h"
-#include "outline.h"
 #include "paint.h"
-#include "shapes.h"
+#include "shape/outline.h"
+#include "shape/shapes.h"
 
 #include <math.h>
 #include <stdio.h>

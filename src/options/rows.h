@@ -232,9 +232,21 @@ GN_OPTION(.name = "here", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "mode", .kind = GN_KIND_TEXT, .value = "NAME",
           .help = "start in this mode of the INI file, or with this technique", .commands = DRAW, .offset = FIELD(run.mode))
 GN_OPTION(.name = "out", .letter = 'o', .kind = GN_KIND_PATH, .value = "FILE",
-          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder; of fit: a kiosk.ini, over no other one; of doctor: the file of --report", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE) | BIT(FIT) | BIT(DOCTOR), .offset = FIELD(run.out))
+          .help = "write to this file; %04d in it becomes the number of the frame; of lesson: to this folder; of fit: a kiosk.ini, over no other one; of doctor: the file of --report", .commands = BIT(RENDER) | BIT(LESSON) | BIT(BAKE) | BIT(FIT) | BIT(DOCTOR) | BIT(DIAL), .offset = FIELD(run.out))
 GN_OPTION(.name = "simplify", .kind = GN_KIND_NUMBER, .min = 0.001, .max = 1, .value = "RATIO", .fallback = "1",
           .help = "keep this share of each mesh's triangles, or more where it would move by over 1/50 of its size", .commands = BIT(BAKE), .offset = FIELD(run.simplify))
+GN_OPTION(.name = "kind", .kind = GN_KIND_CHOICE, .choices = dial_kinds, .value = "KIND", .fallback = "horizontal",
+          .help = "kind of sundial: a level plate, one on a wall, one parallel to the equator, or an ellipse of hours for a pin that is moved with the date", .commands = BIT(DIAL), .offset = FIELD(run.dial.kind))
+GN_OPTION(.name = "latitude", .kind = GN_KIND_NUMBER, .min = -90, .max = 90, .value = "DEG", .unit = "degrees",
+          .help = "latitude that the sundial is made for, positive to the north", .commands = BIT(DIAL), .offset = FIELD(run.dial.latitude_deg))
+GN_OPTION(.name = "longitude", .kind = GN_KIND_NUMBER, .min = -180, .max = 180, .value = "DEG", .unit = "degrees",
+          .help = "longitude of the sundial, positive to the east: with --meridian its hours are those of the clock, but for the equation of time", .commands = BIT(DIAL), .offset = FIELD(run.dial.longitude_deg))
+GN_OPTION(.name = "meridian", .kind = GN_KIND_NUMBER, .min = -210, .max = 210, .value = "DEG", .unit = "degrees",
+          .help = "meridian of the clock's time: 15 for each hour that it is ahead of UTC", .commands = BIT(DIAL), .offset = FIELD(run.dial.meridian_deg))
+GN_OPTION(.name = "declination", .kind = GN_KIND_NUMBER, .min = -180, .max = 180, .value = "DEG", .unit = "degrees",
+          .help = "where the wall of a vertical sundial faces: 0 south, 90 west, -90 east, 180 north; without it, south, and south of the equator north", .commands = BIT(DIAL), .offset = FIELD(run.dial.wall_deg))
+GN_OPTION(.name = "width", .kind = GN_KIND_NUMBER, .min = .02, .max = 100, .value = "M", .unit = "metres", .fallback = ".3",
+          .help = "width of the sundial's plate", .commands = BIT(DIAL), .offset = FIELD(run.dial.width_m))
 GN_OPTION(.name = "rollback", .kind = GN_KIND_FLAG,
           .help = "show the content from before the last take; a second time: go forward again", .commands = BIT(TAKE), .offset = FIELD(run.rollback))
 GN_OPTION(.name = "caption", .kind = GN_KIND_TEXT, .value = "TEXT",

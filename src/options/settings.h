@@ -203,8 +203,12 @@ struct gn_run_settings { /* of this run of the program: flags only */
     double reach;                      /* of score: of a filter, texels */
     bool make_truth;                   /* of score */
     double simplify;                   /* of bake: share of the triangles */
-    bool rollback;                     /* of take */
-    int on_gpu;                        /* of inspect --for: 1 + enum gn_cost_gpu_id, or 0 */
+    struct {
+        int kind; /* enum gn_dial_kind */
+        double latitude_deg, longitude_deg, meridian_deg, wall_deg, width_m;
+    } dial;                              /* of dial */
+    bool rollback;                       /* of take */
+    int on_gpu;                          /* of inspect --for: 1 + enum gn_cost_gpu_id, or 0 */
     bool csv, move_lights, move_casters; /* of bench */
     bool report, compare_reports;        /* of doctor */
     bool plan, json, self_test, stats, verbose, version, help, help_all;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cost/gpu.h"
+#include "dial/dial.h"
 #include "display/display.h"
 #include "frame/frame.h"
 #include "input/input.h"
@@ -28,6 +29,11 @@ static const struct gn_choice gpus[] = {{"none", 0},
                                         GN_COST_GPUS(X)
 #undef X
                                             {0}};
+static const struct gn_choice dial_kinds[] = {
+#define X(NAME, name) {name, GN_DIAL_##NAME},
+    GN_DIAL_KINDS(X)
+#undef X
+        {0}};
 static const struct gn_choice map_formats[] = {
     {"auto", GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE)},
     {"depth", GN_MAP_FORMAT(GN_ENCODING_DEPTH, GN_MOMENTS_NONE)},

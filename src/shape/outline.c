@@ -1,8 +1,8 @@
 /* Triangulation by ear clipping (G. H. Meisters, "Polygons have ears", 1975); a hole is first
  * joined to the outline by a cut of zero width. */
-#include "outline.h"
+#include "shape/outline.h"
 
-#include "shapes.h"
+#include "shape/shapes.h"
 
 #include <assert.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "shapes.h"
+#include "shape/shapes.h"
 
 #include <assert.h>
 #include <math.h>
@@ -225,7 +225,7 @@ static void segment_normal(const float a[2], const float b[2], float out[2]) {
 
 static void revolve(struct gn_shape *shape, const struct sweep *s, const float (*profile)[2],
                     int points) {
-    float normal[2], next[2], v = 0;
+    float normal[2], next[2] = {0}, v = 0;
     segment_normal(profile[0], profile[1], normal);
     uint32_t low = sweep_row(shape, s, profile[0], normal, v);
     for (int i = 1; i < points; i++) {

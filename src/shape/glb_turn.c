@@ -1,5 +1,5 @@
 /* Rotations of glb.h. */
-#include "glb.h"
+#include "shape/glb.h"
 
 #include <math.h>
 

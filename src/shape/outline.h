@@ -1,6 +1,6 @@
 /* Extruded polygons, and fences made of them. */
-#ifndef GN_ASSETS_OUTLINE_H
-#define GN_ASSETS_OUTLINE_H
+#ifndef GN_SHAPE_OUTLINE_H
+#define GN_SHAPE_OUTLINE_H
 
 #include <stdbool.h>
 

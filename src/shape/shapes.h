@@ -3,8 +3,8 @@
  * Each call appends a piece, placed by the pen (a rotation and a translation, as in turtle
  * graphics). UVs are in metres times `uv_per_m`, so that a tiling texture has the same size on all
  * pieces. */
-#ifndef GN_ASSETS_SHAPES_H
-#define GN_ASSETS_SHAPES_H
+#ifndef GN_SHAPE_SHAPES_H
+#define GN_SHAPE_SHAPES_H
 
 #include <stdbool.h>
 #include <stddef.h>
