@@ -83,7 +83,7 @@ for error in 'many.ini:4: rotate' 'many.ini:6: shadow' 'many.ini:7: mode "A" is 
     [ "$(grep -cF "$error" "$folder/err")" = 1 ] || complain "not once: $error"
 done
 [ "$(wc -l < "$folder/err")" = 5 ] || complain "many.ini: $(cat "$folder/err")"
-expect 2 '--here goes with --check FILE' show --here
+expect 2 '--here is valid only with --check FILE' show --here
 printf '[button "a"]\nline = no-such-line\nclick = next\n' > "$folder/here.ini"
 expect 0 '' show --check "$folder/here.ini"
 "$gnomon" show --check "$folder/here.ini" --here > "$folder/out" 2> "$folder/err" && complain '--here finds a line that is not there'
@@ -185,7 +185,7 @@ expect 2 'compare: unexpected argument' compare a.png b.png c.png
 expect 2 'lesson: expected list, all or the name of a lesson' lesson
 expect 2 'there is no lesson "acnee"; did you mean acne?' lesson acnee
 expect 2 'one lesson, or all' lesson acne leak
-expect 2 'does not go with lesson' lesson acne --shadow pcf
+expect 2 'is not valid for lesson' lesson acne --shadow pcf
 expect 1 'lesson:nowhere: there is no such scene inside' render lesson:nowhere -o "$folder/a.png"
 expect 2 'take: nothing is to be taken' take
 expect 2 'take: nothing is to be taken' take "$folder" --content no
@@ -193,10 +193,10 @@ expect 2 'take: unexpected argument "b": it takes one folder' take a b
 expect 2 'take: --rollback takes no folder' take --rollback a
 expect 1 'missing: cannot open it' take "$folder/missing" --content "$folder/content"
 expect 1 'there is no version before this one' take --rollback --content "$folder/content"
-expect 2 'does not go with take' take --size 8x8
+expect 2 'is not valid for take' take --size 8x8
 expect 1 'missing.png' compare "$folder/missing.png" "$folder/a.png"
 expect 1 'neither PNG nor PFM' compare "$folder/a.png" tests/check_cli.sh
-expect 2 'does not go with compare' compare a.png b.png --size 8x8
+expect 2 'is not valid for compare' compare a.png b.png --size 8x8
 
 # pictures of the benchmark
 mkdir "$folder/scenes" "$folder/pictures"

@@ -259,7 +259,7 @@ bool gn_cli_bench(const struct gn_options *options, struct gn_warnings *warnings
     if (o->run.json && o->run.csv)
         return gn_fail_usage(err, "--json and --csv exclude each other: drop one");
     if (o->run.on_gpu && (o->run.csv || o->run.move_lights || o->run.move_casters))
-        return gn_fail_usage(err, "%s does not go with --for: drop one",
+        return gn_fail_usage(err, "%s is not valid with --for: drop one",
                              o->run.csv           ? "--csv"
                              : o->run.move_lights ? "--move-lights"
                                                   : "--move-casters");

@@ -200,7 +200,7 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
         if (flag->row->commands & (1u << i))
             gn_text_add(takers, sizeof takers, "%s %s", takers[0] ? "," : "", gn_commands[i].name);
     const char *name = gn_commands[command].name;
-    return gn_fail_usage(err, "%s does not go with %s; it goes with%s", flag->label,
+    return gn_fail_usage(err, "%s is not valid for %s; it is valid for%s", flag->label,
                          name ? name : "the bare gnomon", takers);
 }
 
@@ -320,7 +320,7 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
             ok = gn_options_choose(options, s->run.mode, err) ||
                  gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
         if (ok && s->run.here && !s->run.check)
-            ok = gn_fail_usage(err, "--here goes with --check FILE");
+            ok = gn_fail_usage(err, "--here is valid only with --check FILE");
         ok = ok && check_animation(options->settings, warnings, err);
     }
     options->argc = argc;

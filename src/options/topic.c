@@ -5,7 +5,7 @@
 const struct gn_topic gn_topics[] = {
     {"board", "a kiosk on a board: hardware, permissions, wiring, start, supervision",
      "board/README.md"},
-    {"exhibit", "from Blender to a screen on the wall with two buttons", "board/wall.md"},
+    {"exhibit", "from a .glb to a screen on the wall with two buttons", "board/wall.md"},
     {"use", "commands, keys, buttons, and what to do when something is wrong", "board/use.md"},
     {"scenes", "making scenes: export, lights, cameras, materials, what it costs", "SCENES.md"},
     {"techniques", "techniques of shadows: which to take, what each costs, how wrong it is",

@@ -232,7 +232,7 @@ static void ctl_takes_words_and_values_that_look_like_flags(void **state) {
     assert_int_equal(options.word_count, 0);
     assert_false(parse("ctl set a b c d"));
     assert_false(parse("ctl --size 8x8 status"));
-    assert_non_null(strstr(err.text, "--size does not go with ctl"));
+    assert_non_null(strstr(err.text, "--size is not valid for ctl"));
     assert_false(parse("ctl set camera -x"));
     assert_false(parse("stl")); /* a file's name would have a dot */
     assert_non_null(strstr(err.text, "did you mean ctl?"));

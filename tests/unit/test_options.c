@@ -198,8 +198,8 @@ static void wrong_words_are_explained(void **state) {
     assert_wrong("render --out --size=64x64", "--out needs a value: FILE");
     assert_wrong("render --plan=yes", "--plan takes no value");
     assert_wrong("inspect --cascades 2",
-                 "--cascades does not go with inspect; it goes with show, render, bench");
-    assert_wrong("--json", "it goes with bench, inspect, fit, doctor");
+                 "--cascades is not valid for inspect; it is valid for show, render, bench");
+    assert_wrong("--json", "it is valid for bench, inspect, fit, doctor");
     assert_wrong("render a.glb b.glb", "b.glb");
     assert_wrong("a.glb b.glb", "b.glb");
     assert_wrong("doctor a.glb", "no scene");
