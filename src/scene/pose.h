@@ -60,8 +60,8 @@ struct gn_pose {
     struct gn_box box_ws;       /* of all visible items */
     uint32_t *playing;          /* numbers of the clips that are on; the one over others is last */
     uint32_t playing_count;
-    bool animated;              /* some clip is on: time changes the pose */
-    bool aimed;                 /* the light that the loader added shines along aim_ws */
+    bool animated; /* some clip is on: time changes the pose */
+    bool aimed;    /* the light that the loader added shines along aim_ws */
     vec3 aim_ws;
     vec4 *texels; /* scene->deformation.width x height; what vertex shaders read of skins and
                      targets: rows of world_from_mesh of each joint, and lists of weights */
