@@ -191,17 +191,17 @@ static uint64_t count_moving(const struct gn_pose *pose) {
     uint64_t count = 1;
     for (uint32_t i = 0; i < scene->node_count; i++) count += pose->node_moves[i];
     for (uint32_t i = 0; i < scene->item_count; i++) count += pose->items[i].moves;
-    for (uint32_t i = 0; i < scene->animation.clip_count; i++)
-        if (gn_pose_plays(pose, i)) count += scene->animation.clips[i].channel_count;
+    for (uint32_t i = 0; i < pose->playing_count; i++)
+        count += scene->animation.clips[pose->playing[i]].channel_count;
     return count;
 }
 
 int64_t gn_scene_period_ns(const struct gn_pose *pose) {
     int64_t longest_ns = 0;
     bool differ = false;
-    for (uint32_t i = 0; i < pose->scene->animation.clip_count; i++) {
-        const int64_t ns = pose->scene->animation.clips[i].duration_ns;
-        if (!gn_pose_plays(pose, i) || ns == 0) continue;
+    for (uint32_t i = 0; i < pose->playing_count; i++) {
+        const int64_t ns = pose->scene->animation.clips[pose->playing[i]].duration_ns;
+        if (ns == 0) continue;
         differ |= longest_ns > 0 && llabs(ns - longest_ns) > 1000000;
         if (ns > longest_ns) longest_ns = ns;
     }
@@ -215,9 +215,8 @@ static void choose_times(const struct gn_pose *pose, int64_t period_ns, int cell
     const double cell_s = (double)period_ns * 1e-9 / cells;
     const int step = cells > EVEN_POSES ? cells / EVEN_POSES : 1;
     for (int i = 0; i < cells; i++) times[i] = -1;
-    for (uint32_t c = 0; c < animation->clip_count; c++) {
-        const struct gn_clip *clip = &animation->clips[c];
-        if (!gn_pose_plays(pose, c)) continue;
+    for (uint32_t c = 0; c < pose->playing_count; c++) {
+        const struct gn_clip *clip = &animation->clips[pose->playing[c]];
         for (uint32_t i = 0; i < clip->channel_count; i++) {
             const struct gn_channel *channel = &animation->channels[clip->first_channel + i];
             if (channel->path == GN_ANIM_RECORD && !gn_channel_hides(pose->scene, channel))

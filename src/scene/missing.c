@@ -37,15 +37,19 @@ static void add_name(char *list, size_t size, const char *name) {
 
 bool gn_missing_list(struct gn_gltf *g) {
     char list[500] = "";
+    const json_t *added[sizeof list / 3 + 1]; /* a name takes three bytes at least */
+    size_t count = 0;
     for (size_t i = 0; i < GN_MISSING_COUNT; i++)
         if (g->is_missing[i]) add_name(list, sizeof list, rows[i].words);
     const json_t *used = json_object_get(g->file.json, "extensionsUsed");
-    for (size_t i = 0; i < json_array_size(used); i++) {
+    for (size_t i = 0; i < json_array_size(used) && strlen(list) + 1 < sizeof list; i++) {
         const char *name = json_string_value(json_array_get(used, i));
         bool is_new = name && *name && !is_known(name);
-        for (size_t k = 0; k < i && is_new; k++)
-            is_new = !json_equal(json_array_get(used, k), json_array_get(used, i));
-        if (is_new) add_name(list, sizeof list, name);
+        for (size_t k = 0; k < count && is_new; k++)
+            is_new = !json_equal(added[k], json_array_get(used, i));
+        if (!is_new) continue;
+        added[count++] = json_array_get(used, i);
+        add_name(list, sizeof list, name);
     }
     for (char *c = list; *c; c++)
         if ((unsigned char)*c < ' ' || (unsigned char)*c >= 127) *c = '?'; /* a file's names */

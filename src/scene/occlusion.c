@@ -18,14 +18,15 @@ enum {
 /* Marks the nodes that a clip of the file may hide, whichever is shown. */
 static bool find_hidden(struct gn_gltf *g, bool **hidden) {
     const struct gn_scene *scene = g->scene;
+    const struct gn_scene_animation *animation = &scene->animation;
+    bool *played = gn_gltf_alloc(g, &g->memory.step, animation->record_floats + 1, sizeof *played);
     *hidden = gn_gltf_alloc(g, &g->memory.step, scene->node_count + 1, sizeof **hidden);
-    if (!*hidden) return false;
-    for (uint32_t i = 0; i < scene->animation.channel_count; i++) {
-        const struct gn_channel *channel = &scene->animation.channels[i];
-        if (channel->path != GN_ANIM_RECORD || !scene->animation.names[GN_THING_NODE]) continue;
-        for (uint32_t k = 0; k < scene->node_count; k++)
-            (*hidden)[k] |= scene->nodes[k].record == channel->record + 1;
-    }
+    if (!played || !*hidden) return false;
+    for (uint32_t i = 0; i < animation->channel_count; i++)
+        if (animation->channels[i].path == GN_ANIM_RECORD)
+            played[animation->channels[i].record] = true;
+    for (uint32_t i = 0; i < scene->node_count; i++)
+        (*hidden)[i] = scene->nodes[i].record && played[scene->nodes[i].record - 1];
     for (uint32_t i = 0; i < scene->node_count; i++) /* parents stand first */
         if (scene->nodes[i].parent >= 0) (*hidden)[i] |= (*hidden)[scene->nodes[i].parent];
     return true;

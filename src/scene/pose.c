@@ -87,10 +87,17 @@ static void pose_node(struct gn_pose *pose, uint32_t i) {
 
 /* ---- clips ---- */
 
-bool gn_pose_plays(const struct gn_pose *pose, uint32_t clip) {
-    if (pose->at.over == (int)clip) return true;
-    if (pose->at.clips == GN_POSE_DEFAULT) return pose->scene->animation.clips[clip].on_by_default;
-    return pose->at.clips == (int)clip;
+/* A number that no clip has plays none. */
+static void list_playing(struct gn_pose *pose) {
+    const struct gn_scene_animation *animation = &pose->scene->animation;
+    const int clips = pose->at.clips, over = pose->at.over, count = (int)animation->clip_count;
+    pose->playing_count = 0;
+    for (uint32_t c = 0; clips == GN_POSE_DEFAULT && c < animation->clip_count; c++)
+        if (animation->clips[c].on_by_default && (int)c != over)
+            pose->playing[pose->playing_count++] = c;
+    if (clips >= 0 && clips < count && clips != over)
+        pose->playing[pose->playing_count++] = (uint32_t)clips;
+    if (over >= 0 && over < count) pose->playing[pose->playing_count++] = (uint32_t)over;
 }
 
 /* ---- the pose ---- */
@@ -113,6 +120,7 @@ void gn_pose_init(struct gn_pose *pose, const struct gn_scene *scene, int clips)
     struct memory *memory = pose->memory = gn_xalloc(1, sizeof *memory);
     pose->world_from_node = gn_xalloc(scene->node_count, sizeof *pose->world_from_node);
     pose->node_moves = gn_xalloc(scene->node_count, sizeof *pose->node_moves);
+    pose->playing = gn_xalloc(scene->animation.clip_count, sizeof *pose->playing);
     pose->items = gn_xalloc(scene->item_count, sizeof *pose->items);
     if (scene->place.exact) pose->exact = gn_xalloc(scene->node_count, sizeof *pose->exact);
     memory->local = gn_xalloc(scene->node_count, sizeof *memory->local);
@@ -173,9 +181,9 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
     gn_values_reset(&memory->values, pose, fades);
 
     /* marks and lists the nodes and items that the clips animate */
-    for (uint32_t c = 0; c < scene->animation.clip_count; c++) {
-        const struct gn_clip *clip = &scene->animation.clips[c];
-        if (!gn_pose_plays(pose, c)) continue;
+    list_playing(pose);
+    for (uint32_t c = 0; c < pose->playing_count; c++) {
+        const struct gn_clip *clip = &scene->animation.clips[pose->playing[c]];
         if (clip->channel_count > 0) pose->animated = true;
         for (uint32_t i = 0; i < clip->channel_count; i++)
             mark_channel(pose, &scene->animation.channels[clip->first_channel + i]);
@@ -251,9 +259,9 @@ int64_t gn_pose_clip_ns(const struct gn_pose_run *run, int64_t length_ns, int64_
 bool gn_pose_stands(const struct gn_pose *pose) {
     const struct gn_pose_run *run = &pose->at.run;
     if (pose->at.fade < 1 || pose->at.over >= 0) return false;
-    for (uint32_t c = 0; c < pose->scene->animation.clip_count; c++) {
-        const int64_t ns = pose->scene->animation.clips[c].duration_ns;
-        if (gn_pose_plays(pose, c) && run->speed_less_1 != -1 && ns > 0 &&
+    for (uint32_t c = 0; c < pose->playing_count; c++) {
+        const int64_t ns = pose->scene->animation.clips[pose->playing[c]].duration_ns;
+        if (run->speed_less_1 != -1 && ns > 0 &&
             (run->turns != GN_POSE_ONCE ||
              gn_pose_clip_ns(run, ns, pose->at.time_ns - pose->at.begun_ns) < ns))
             return false;
@@ -287,16 +295,15 @@ void gn_pose_step(struct gn_pose *pose, int64_t time_ns) {
     if (!pose->animated) return;
     const struct gn_scene_animation *animation = &pose->scene->animation;
     if (pose->at.fade < 1) gn_deformer_rest(&memory->deformer, pose);
-    for (uint32_t c = 0; c < animation->clip_count; c++)
-        if (gn_pose_plays(pose, c) && pose->at.over != (int)c)
-            step_clip(pose, &animation->clips[c],
-                      gn_pose_clip_ns(&pose->at.run, animation->clips[c].duration_ns,
-                                      time_ns - pose->at.begun_ns));
     static const struct gn_pose_run loop = {0};
-    if (pose->at.over >= 0)
+    for (uint32_t c = 0; c < pose->playing_count; c++) {
+        const struct gn_clip *clip = &animation->clips[pose->playing[c]];
+        const bool over = (int)pose->playing[c] == pose->at.over;
         step_clip(
-            pose, &animation->clips[pose->at.over],
-            gn_pose_clip_ns(&loop, animation->clips[pose->at.over].duration_ns, pose->at.over_ns));
+            pose, clip,
+            over ? gn_pose_clip_ns(&loop, clip->duration_ns, pose->at.over_ns)
+                 : gn_pose_clip_ns(&pose->at.run, clip->duration_ns, time_ns - pose->at.begun_ns));
+    }
     if (pose->at.fade < 1) gn_fade_weights(&memory->fade, pose, &memory->deformer);
     if (memory->values.moves) gn_values_apply(&memory->values, pose);
     for (uint32_t i = 0; i < memory->node_count; i++) pose_node(pose, memory->nodes[i]);
@@ -319,6 +326,7 @@ void gn_pose_finish(struct gn_pose *pose) {
     free(pose->world_from_node);
     free(pose->exact);
     free(pose->node_moves);
+    free(pose->playing);
     free(pose->items);
     free(pose->texels);
     free(pose->list_counts);

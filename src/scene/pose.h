@@ -58,8 +58,10 @@ struct gn_pose {
     struct gn_exact *exact;     /* the same, before the origin is moved; NULL: floats are enough */
     struct gn_pose_item *items; /* scene->item_count */
     struct gn_box box_ws;       /* of all visible items */
-    bool animated;              /* some clip is on: time changes the pose */
-    bool aimed;                 /* the light that the loader added shines along aim_ws */
+    uint32_t *playing;          /* numbers of the clips that are on; the one over others is last */
+    uint32_t playing_count;
+    bool animated; /* some clip is on: time changes the pose */
+    bool aimed;    /* the light that the loader added shines along aim_ws */
     vec3 aim_ws;
     vec4 *texels; /* scene->deformation.width x height; what vertex shaders read of skins and
                      targets: rows of world_from_mesh of each joint, and lists of weights */
@@ -92,7 +94,6 @@ void gn_pose_choose_variant(struct gn_pose *pose, int variant);
 /* Moves it to time_ns (any value; clips loop, negative times too). Allocates nothing; nodes that
  * are not animated cost nothing. */
 void gn_pose_step(struct gn_pose *pose, int64_t time_ns);
-bool gn_pose_plays(const struct gn_pose *pose, uint32_t clip);
 /* Later times show the same as the last step did. */
 bool gn_pose_stands(const struct gn_pose *pose);
 void gn_pose_finish(struct gn_pose *pose);

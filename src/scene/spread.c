@@ -8,8 +8,9 @@
 #include "scene/pose.h"
 
 enum {
-    POSES = 16,         /* of a clip, at most */
-    VERTICES = 1 << 18, /* for all clips together; but each clip has one pose */
+    POSES = 16,           /* of a clip, at most */
+    VERTICES = 1 << 18,   /* for all clips together; but each clip has one pose, */
+    MOST_POSED = 1 << 22, /* unless more nodes, items and vertices would be posed: evenly chosen */
 };
 
 struct posed { /* a vertex */
@@ -66,7 +67,10 @@ bool gn_scene_add_posed_spreads(struct gn_gltf *g) {
     add_pose(scene, &pose, posed);
     const uint64_t room = VERTICES / vertices / (animation->clip_count + 1);
     const int poses = room < 1 ? 1 : room < POSES ? (int)room : POSES;
-    for (uint32_t clip = 0; clip < animation->clip_count && gn_gltf_check_time(g); clip++) {
+    const uint64_t posed_per_clip = scene->node_count + scene->item_count + vertices,
+                   clips_most = 1 + MOST_POSED / posed_per_clip,
+                   step = 1 + animation->clip_count / clips_most;
+    for (uint64_t clip = 0; clip < animation->clip_count && gn_gltf_check_time(g); clip += step) {
         gn_pose_choose(&pose, (int)clip);
         for (int i = 0; i < poses; i++) {
             gn_pose_step(&pose, animation->clips[clip].duration_ns / (2 * poses) * (2 * i + 1));

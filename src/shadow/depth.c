@@ -81,6 +81,13 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
     }
 }
 
+/* Behind the blockers of a lamp without a width are no cones, so nothing would be in shadow. One
+ * texel at the far end of the map is less than the least filter. */
+static void widen_cones(struct gn_shadow_view *view) {
+    if (gn_techniques[view->technique].filter == GN_FILTER_CONE)
+        view->penumbra.radius = most(view->penumbra.radius, 1.0f / view->penumbra.scale);
+}
+
 /* Similar triangles (Fernando, "Percentage-Closer Soft Shadows", 2005): in plane units a blocker at
  * depth b throws on a receiver at depth r a penumbra of radius (r - b) tan(angular radius) for a
  * directional light, radius (1/b - 1/r) for a spot or point light. */
@@ -94,6 +101,7 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
         view->penumbra.nearest = -1.0f / near_depth;
         view->penumbra.scale = 1.0f / near_depth - 1.0f / far_depth;
         view->penumbra.bias = -1.0f / near_depth;
+        widen_cones(view);
         return;
     }
     view->penumbra.nearest = -1.0f / near_depth;
@@ -106,6 +114,7 @@ void gn_fitter_set_penumbra(const struct gn_fitter *f, const struct gn_shadow_re
     view->penumbra.scale =
         gn_encoding_is_depth(view->encoding) ? view->code.far_m : 1.0f / view->code.scale;
     view->penumbra.bias = -view->code.offset / view->code.scale;
+    widen_cones(view);
 }
 
 /* A blur does not know the distance of blockers. It is as wide as the penumbra that a blocker

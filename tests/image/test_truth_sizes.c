@@ -403,12 +403,34 @@ static void test_pictures_of_wide_floors(void **state) {
     assert_int_equal(wrong, 0);
 }
 
+/* All techniques of maps, of lamps without a width over a small floor: the quad's shadow is there.
+ */
+static void test_lamps_without_a_width(void **state) {
+    (void)state;
+    static const char *const techniques[] = {"hard", "pcf", "disk", "pcss", "cone", "smsm", "vssm"};
+    struct test_case c = {
+        .size_m = 1, .height_m = .1, .place = "0,0,0", .view = NEAR, .perspective = true};
+    int wrong = 0;
+    for (int light = 0; light < 3; light++) {
+        double dark, right;
+        c.light = lights[light];
+        measure(&c, NULL, &right);
+        for (size_t t = 0; t < sizeof techniques / sizeof *techniques; t++) {
+            measure(&c, techniques[t], &dark);
+            printf("%s, %s: dark %.4f, right %.4f\n", lights[light], techniques[t], dark, right);
+            wrong += fabs(dark - right) > .05;
+        }
+    }
+    assert_int_equal(wrong, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edges_are_where_they_should_be_at_all_sizes),
         cmocka_unit_test(test_edges_are_right_far_from_the_origin),
         cmocka_unit_test(test_penumbrae_are_right_at_all_sizes),
         cmocka_unit_test(test_pictures_of_wide_floors),
+        cmocka_unit_test(test_lamps_without_a_width),
     };
     return cmocka_run_group_tests_name("truth_sizes", tests, NULL, NULL);
 }
