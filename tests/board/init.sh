@@ -64,7 +64,7 @@ mkdir -p /dev/pts /dev/shm
 mount -t devpts devpts /new/dev/pts
 for folder in dev/shm run tmp; do mount -t tmpfs -o mode=1777 tmpfs "/new/$folder"; done
 share out /new/out rw
-cp -R /modules /new/run/modules
+mkdir /new/run/modules && mount -o bind /modules /new/run/modules
 cp /bin/busybox /new/run/busybox
 load gpu
 ip link set lo up

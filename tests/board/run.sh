@@ -39,7 +39,7 @@ status=$?
 cat "$reason"
 rm -f "$reason"
 [ "$status" = 0 ] || exit "$status"
-root=/ systemd=''
+root=/ systemd='' kernel=$parts/vmlinuz
 if grep -q '^# systemd: yes' "$script"; then
     systemd=gnomon.systemd
     reason=$(mktemp)
@@ -51,6 +51,7 @@ if grep -q '^# systemd: yes' "$script"; then
 elif [ "$arch${SUITE:-}" != amd64 ]; then
     root=$("$here/sysroot.sh" "$arch") || exit
 fi
+[ -n "$systemd" ] || kernel=$("$here/kernel.sh" "$parts") || exit # beside what systemd takes to start it would be little
 
 [ -x "$gnomon" ] || { echo "$gnomon is not built" && exit 1; }
 out=$(realpath -m "$build/board/$test")
@@ -90,11 +91,12 @@ for setting in HOST_OUT="$out" LIMIT="$limit" GN_FULL="${GN_FULL:-}" HEADS="$hea
 done > "$out/env"
 
 # Emulated, Mesa takes most of a minute to compile the programs: what it kept the last time is given
-# to it again. Its names for them hold Mesa's version, the program's text and this processor's.
+# to it again, as one file: of hundreds each would be asked for over 9p. Its names for them hold Mesa's version, the program's text
+# and this processor's.
 shaders=${XDG_CACHE_HOME:-$HOME/.cache}/gnomon/board/shaders-$arch${SUITE:+-$SUITE}
 mkdir -p "$shaders" "$out/cache"
 find "$shaders" -type f -mtime +30 -delete
-cp -R "$shaders/." "$out/cache/"
+tar -C "$shaders" -cf "$out/cache.tar" .
 
 mkdir "$out/initrd.d"
 cp -R "$parts/initrd.d/." "$out/initrd.d/"
@@ -121,8 +123,8 @@ arm64) machine+=(-machine virt -cpu cortex-a72) console=ttyAMA0 ;;
 esac
 # shellcheck disable=SC2054
 machine+=(
-    -kernel "$parts/vmlinuz" -initrd "$out/initrd"
-    -append "console=$console quiet panic=-1 mitigations=off audit=0 vt.global_cursor_default=0 $systemd $(sed -n 's/^# kernel: //p' "$script") ${KERNEL_ARGS:-}"
+    -kernel "$kernel" -initrd "$out/initrd"
+    -append "console=$console quiet panic=-1 mitigations=off cryptomgr.notests audit=0 vt.global_cursor_default=0 $systemd $(sed -n 's/^# kernel: //p' "$script") ${KERNEL_ARGS:-}"
     -serial "file:$out/console" -nic none
     -fsdev "local,id=out,path=$out,security_model=none"
     -device virtio-9p-pci,fsdev=out,mount_tag=out
@@ -184,7 +186,7 @@ if [ -e "$out/stood-still" ]; then
     [ -n "${AGAIN:-}" ] || { echo 'once more:' && rm -rf "$sockets" && AGAIN=1 exec "$0" "$script"; }
 fi
 cp -Rn "$out/cache/." "$shaders/"
-rm -r "$out/cache"
+rm -r "$out/cache" "$out/cache.tar"
 bad=0
 complain() {
     echo "FAIL: $*"
