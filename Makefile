@@ -50,7 +50,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make pictures   the pictures of README.md, and how far they are from rays
 #: make gallery    one scene with every technique and the truth, into assets/gallery
 #: make models     default pictures of the models of ../shared/assets against the same by rays;
-#:                 SHADOW=.. for another technique
+#:                 SHADOW=.. for another technique, GATHER=always: what stands still gathers
 #: make contact-sheet
 #:                 the modes of the default scene, gone through by keys, as one picture
 #: make lessons    faults of shadows beside their cures, into build/lessons/index.html
@@ -394,7 +394,7 @@ swim: $(B)/tests/tool_swim $(BIN)
 	$<
 models: $(B)/tests/tool_models $(BIN)
 	@mkdir -p $(O)/models
-	GNOMON=$(BIN) $< ../shared/assets $(O)/models $(SHADOW)
+	GNOMON=$(BIN) $(if $(GATHER),GATHER=$(GATHER)) $< ../shared/assets $(O)/models $(SHADOW)
 # GN_UPDATE=1: writes the hashes of what was made
 benchmark-scenes: $(B)/tests/tool_benchmark $(O)/host/make_truth
 	BUILD=$(B) $< scenes assets/benchmark

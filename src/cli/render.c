@@ -10,7 +10,7 @@
 #include "core/clock.h"
 #include "image/write.h"
 #include "shadow/grey.h"
-#include "stage/stage.h"
+#include "stage/gather.h"
 
 struct render {
     struct gn_stage stage;
@@ -121,6 +121,9 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
     const size_t pixels = (size_t)o->render.size.width_px * (size_t)o->render.size.height_px;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     const int frames = o->run.frames > 0 ? o->run.frames : 1;
+    const struct gn_frame_opts look = r->stage.shown.opts;
+    const bool gathers = o->render.gather == GN_GATHER_ALWAYS && r->format == GN_PICTURE_PNG &&
+                         look.debug.aov == GN_AOV_COLOR;
     r->rgba = gn_picture_alloc(pixels, 4, err);
     if (!r->rgba) return false;
     if (r->stage.shown.opts.debug.aov != GN_AOV_COLOR || r->format == GN_PICTURE_PFM) {
@@ -136,6 +139,8 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
         int64_t time_ns =
             o->scene.time_ns + (int64_t)llround((double)i / o->run.fps * (double)GN_NS_PER_S);
         r->begun_ns = r->percent = 0;
+        r->stage.shown.opts = look;
+        if (gathers) gn_stage_gather(&r->stage, &r->stage.shown, time_ns, warnings);
         const struct gn_plan *plan =
             gn_view_draw(&r->stage.shown, &r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;

@@ -4,12 +4,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/arena.h"
 #include "core/clock.h"
 #include "core/memory.h"
 #include "kiosk/private.h"
-#include "shadow/lamp.h"
-#include "stage/lights.h"
+#include "stage/gather.h"
 #include "stage/occlusion.h"
 
 static const int64_t REST_NS = GN_NS_PER_S * 3 / 10; /* a view that is so old has come to rest */
@@ -31,7 +29,7 @@ static bool may_gather(const struct gn_show_screen *s) {
     const struct gn_show_still *t = &s->still;
     const struct gn_frame_opts *opts = &s->stage.shown.opts;
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (s->stage.settings->render.gather != GN_GATHER_AUTO || !s->stage.gl || t->never)
+    if (s->stage.settings->render.gather == GN_GATHER_NONE || !s->stage.gl || t->never)
         return false;
     if (t->points == GN_STILL_POINTS || t->share > 0.0f || !s->stage.shown.builder) return false;
     if (!screen->may_draw || !screen->lit || screen->black || s->drawn.dark) return false;
@@ -46,43 +44,13 @@ int64_t gn_still_due_ns(const struct gn_show_screen *s) {
 
 /* ---- the view that gathers ---- */
 
-/* The shown view with hard shadows of those lights that have soft ones, from one point of each.
- * False: no light has. */
+static struct gn_gather_point point_of(const struct gn_show_still *t) {
+    return (struct gn_gather_point){t->points % GN_STILL_POINTS, GN_STILL_POINTS, true};
+}
+
 static bool share_shown(struct gn_show_screen *s) {
     struct gn_show_still *t = &s->still;
-    const struct gn_view *shown = &s->stage.shown;
-    const struct gn_scene *scene = s->stage.pose.scene;
-    struct gn_frame_opts *opts = &t->view.opts;
-    bool any = false;
-    gn_view_share(&t->view, GN_VIEW_STILL, shown, &shown->opts);
-    opts->output.msaa = 0; /* each part is of another eighth of a pixel */
-    opts->output.keeps_alpha = false;
-    opts->cover = (struct gn_frame_cover_opts){0};
-    opts->shadow.filter_texels = opts->shadow.gather_points = 0;
-    if (!t->aside) t->aside = gn_xalloc(scene->light_count + 1, sizeof *t->aside);
-    const uint32_t point = t->points % GN_STILL_POINTS;
-    float place[3];
-    gn_lamp_point(point, GN_STILL_POINTS, place);
-    for (uint32_t i = 0; i < scene->light_count; i++) {
-        const struct gn_light_opts holds =
-            gn_frame_light_opts(shown->builder, &s->stage.pose, &shown->opts, i);
-        const struct gn_technique_row *row = &gn_techniques[holds.technique];
-        const bool soft = row->soft && !row->on_plane && !row->on_screen && holds.radius > 0.0f &&
-                          holds.on && scene->lights[i].slide < 0;
-        struct gn_light_opts *own = soft ? gn_stage_light_entry(&opts->shadow, i) : NULL;
-        for (int k = 0; k < 3; k++) t->aside[i][k] = own ? holds.radius * place[k] : 0.0f;
-        if (!own) continue;
-        any = true;
-        GN_LIGHT_SET(own, technique, GN_TECHNIQUE_HARD);
-        GN_LIGHT_SET(own, map_format, GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
-    }
-    /* Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences" (2018): evenly spread */
-    const uint32_t part = point / GN_STILL_PART, in_part = point % GN_STILL_PART, row = part / 4;
-    opts->view.aside_px[0] = (float)((part % 4 + fmod(0.7548776662466927 * point, 1)) / 4 - 0.5);
-    opts->view.aside_px[1] = (float)((row + fmod(0.5698402909980532 * point, 1)) / 2 - 0.5);
-    opts->gather.part = 1.0f / (float)(in_part + 1);
-    opts->gather.whole = in_part == GN_STILL_PART - 1 ? 1.0f / (float)(part + 1) : 0.0f;
-    return any;
+    return gn_gather_share(&t->view, &t->aside, &s->stage.shown, point_of(t));
 }
 
 /* A program of a plan, of all that it can need. True: it was the last. */
@@ -124,12 +92,7 @@ static void prepare(struct gn_show_screen *s) {
 
 static bool add_point(struct gn_show_screen *s) {
     struct gn_show_still *t = &s->still;
-    struct gn_err unused = {0};
-    share_shown(s);
-    s->stage.pose.lights_aside = (const float(*)[3])t->aside;
-    const struct gn_plan *plan = gn_view_plan(&t->view, s->stage.gl, NULL, &unused);
-    s->stage.pose.lights_aside = NULL;
-    return plan && plan->gathers && gn_gl_run(s->stage.gl, plan, NULL, &unused);
+    return gn_gather_add(&t->view, &t->aside, &s->stage.shown, point_of(t), s->stage.gl);
 }
 
 void gn_still_step(struct gn_show_screen *s) {

@@ -8,11 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "stage/view.h"
+#include "stage/gather.h"
 
 struct gn_show_screen;
 
-enum { GN_STILL_POINTS = 64, GN_STILL_PART = 8 };
+enum { GN_STILL_POINTS = GN_GATHER_POINTS };
 struct gn_show_still {   /* zeroed: nothing is gathered */
     struct gn_view view; /* that gathers */
     float (*aside)[3];   /* where the lights are in it, by light; NULL until it gathers */

@@ -82,8 +82,8 @@ GN_OPTION(.name = "environment-show", .section = "render", .kind = GN_KIND_CHOIC
           .help = "draw the environment as the background, unless that is transparent", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.environment_show))
 GN_OPTION(.name = "occlusion", .section = "render", .kind = GN_KIND_CHOICE, .choices = occlusions, .value = "auto|none", .fallback = "auto",
           .help = "ambient occlusion: less light from all directions where the model itself blocks it; auto: where an environment lights the model, on all of it that stays where it is over the clips that play, unless the shape is too fine for its 32,768 cubes", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(render.occlusion))
-GN_OPTION(.name = "gather", .section = "render", .kind = GN_KIND_CHOICE, .choices = gathers, .value = "auto|none", .fallback = "auto",
-          .help = "soft shadows of a scene that stands still; auto: after a third of a second they converge to those from many points of each light, until something moves", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(render.gather))
+GN_OPTION(.name = "gather", .section = "render", .kind = GN_KIND_CHOICE, .choices = gathers, .value = "auto|none|always", .fallback = "auto",
+          .help = "soft shadows of a scene that stands still; auto: after a third of a second they converge to those from many points of each light, until something moves; always: in each .png of render, too, which then takes two to six times as long", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(render.gather))
 GN_OPTION(.name = "show-lights", .section = "render", .kind = GN_KIND_FLAG,
           .help = "draw a gizmo at each light", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.show_lights))
 GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,

@@ -93,7 +93,7 @@ struct gn_scene_settings {
     double texture_limit_px; /* NAN: automatic, INFINITY: none */
 };
 enum gn_occlusion_setting { GN_OCCLUSION_AUTO, GN_OCCLUSION_NONE };
-enum gn_gather_setting { GN_GATHER_AUTO, GN_GATHER_NONE };
+enum gn_gather_setting { GN_GATHER_AUTO, GN_GATHER_NONE, GN_GATHER_ALWAYS };
 enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
     struct gn_size size;

@@ -70,7 +70,8 @@ static const struct gn_choice tones[] = {{"auto", GN_TONE_AUTO}, {"neutral", GN_
                                          {"none", GN_TONE_NONE}, {0}};
 static const struct gn_choice occlusions[] = {
     {"auto", GN_OCCLUSION_AUTO}, {"none", GN_OCCLUSION_NONE}, {0}};
-static const struct gn_choice gathers[] = {{"auto", GN_GATHER_AUTO}, {"none", GN_GATHER_NONE}, {0}};
+static const struct gn_choice gathers[] = {
+    {"auto", GN_GATHER_AUTO}, {"none", GN_GATHER_NONE}, {"always", GN_GATHER_ALWAYS}, {0}};
 static const struct gn_choice environment_shows[] = {{"no", GN_ENVIRONMENT_SHOW_NO},
                                                      {"yes", GN_ENVIRONMENT_SHOW_SHARP},
                                                      {"blur", GN_ENVIRONMENT_SHOW_BLUR},

@@ -29,6 +29,16 @@ bool gn_fine_truth(const char *scene_path, const char *exposure, int width_px, i
     return true;
 }
 
+bool gn_fine_shot(const char *scene_path, const char *const args[], float *out,
+                  struct gn_err *err) {
+    struct gn_picture shot;
+    if (!gn_shot(&shot, NULL, err, "png", scene_path, args)) return false;
+    for (int y = 0; y < shot.height_px; y++)
+        for (int x = 0; x < shot.width_px; x++) *out++ = gn_picture_at(&shot, x, y)[1];
+    gn_picture_finish(&shot);
+    return true;
+}
+
 char *gn_fine_write(int scene, const char **name, struct gn_err *err) {
     static const int scenes[GN_FINE_SCENES] = {[GN_FINE_SUN] = GN_PENUMBRA_BARS,
                                                [GN_FINE_SPOT] = GN_PENUMBRA_BOX,

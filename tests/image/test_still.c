@@ -179,6 +179,50 @@ static void hard_shadows_stay(void **state) {
     gn_memory_pretend_mb(whole_mb);
 }
 
+/* Likewise at once, in a file. */
+static void pictures_of_files_are_gathered(void **state) {
+    static const struct {
+        int scene;
+        const char *technique;
+    } rows[] = {{GN_FINE_SUN, "cone"}, {GN_FINE_POINT, "cone"}, {GN_FINE_SPOT, "pcss"}};
+    static float truth[PIXELS], shot[PIXELS];
+    static const char *const gathers[] = {"auto", "always"};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const char *path = path_of(rows[i].scene), *exposure = exposures[rows[i].scene];
+        double error[2] = {0};
+        struct gn_err err = {0};
+        if (!gn_fine_truth(path, exposure, WIDTH, HEIGHT, truth, &err)) fail_msg("%s", err.text);
+        for (int k = 0; k < 2; k++) {
+            const char *const args[] = {"--size",     "96x72",  "--backend", "egl",
+                                        "--msaa",     "4",      "--shadow",  rows[i].technique,
+                                        "--exposure", exposure, "--gather",  gathers[k],
+                                        NULL};
+            if (!gn_fine_shot(path, args, shot, &err)) fail_msg("%s", err.text);
+            for (int p = 0; p < PIXELS; p++)
+                error[k] += pow((double)shot[p] - (double)truth[p], 2) / PIXELS;
+        }
+        printf("%s, %s in a file: %.4f -> %.4f of rays\n", names[rows[i].scene], rows[i].technique,
+               sqrt(error[0]), sqrt(error[1]));
+        assert_true(sqrt(error[1]) < 0.65 * sqrt(error[0]) && sqrt(error[1]) < .005);
+    }
+}
+
+/* A mean has no alpha: the technique's picture stays. */
+static void a_transparent_picture_is_not_gathered(void **state) {
+    static float shots[2][PIXELS];
+    static const char *const gathers[] = {"none", "always"};
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        struct gn_err err = {0};
+        const char *const args[] = {"--size",       "96x72",       "--backend", "egl",
+                                    "--background", "transparent", "--shadow",  "cone",
+                                    "--gather",     gathers[k],    NULL};
+        if (!gn_fine_shot(path_of(GN_FINE_SUN), args, shots[k], &err)) fail_msg("%s", err.text);
+    }
+    assert_memory_equal(shots[0], shots[1], sizeof *shots);
+}
+
 static int end(void **state) {
     (void)state;
     for (int i = 0; i < GN_FINE_SCENES; i++) free(paths[i]);
@@ -190,6 +234,8 @@ int main(void) {
         cmocka_unit_test(soft_shadows_converge_to_truth),
         cmocka_unit_test(what_moves_is_the_techniques),
         cmocka_unit_test(hard_shadows_stay),
+        cmocka_unit_test(pictures_of_files_are_gathered),
+        cmocka_unit_test(a_transparent_picture_is_not_gathered),
     };
     return cmocka_run_group_tests(tests, NULL, end);
 }

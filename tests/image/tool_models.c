@@ -1,7 +1,7 @@
 /* tool_models FOLDER OUT [SHADOW]: the default pictures of models against the same by rays, the
  * shadows of both in the made light: how much of what an eye sees as hatch and torn edges differs.
  * FOLDER has the models of tests/image/models (../shared/assets), OUT gets both pictures. SHADOW: a
- * technique in place of the default one.
+ * technique in place of the default one; with $GATHER, the value of --gather.
  *
  * Per model: the mean and the 99th percentile, of 255, of the difference between the pictures after
  * a band of 2 to 8 pixels (a Gaussian of 1 px less one of 4), of the green channel as encoded,
@@ -24,9 +24,21 @@ static int quit(const char *text) {
 
 /* Green, as encoded; NULL: it was not drawn. */
 static float *draw(const char *model, const char *out, const char *shadow) {
-    const char *argv[] = {
-        gn_shot_program(),          "render", model, "-o", out, "--size", "800x600", "--msaa", "0",
-        shadow ? "--shadow" : NULL, shadow,   NULL};
+    const char *gather = getenv("GATHER");
+    const char *argv[] = {gn_shot_program(),
+                          "render",
+                          model,
+                          "-o",
+                          out,
+                          "--size",
+                          "800x600",
+                          "--msaa",
+                          "0",
+                          "--gather",
+                          gather ? gather : "auto",
+                          shadow ? "--shadow" : NULL,
+                          shadow,
+                          NULL};
     struct gn_run run;
     struct gn_err err = {0};
     struct gn_picture picture;
