@@ -16,6 +16,7 @@ optional_compiler=g++ # with libdraco, of gnomon-import
 optional_run='fonts-dejavu-core' # for those texts
 repository='apt-utils gpg gpg-agent'
 optional_test="libosmesa6-dev $repository" # not in every Debian
+optional_test_own='tmux python3-ephem' # a terminal that scripts can type in; where the sun stands
 # fetches libraries for tests/angle, which are for a PC alone; node brings its own where it is not Debian's
 [ "$(uname -m)" != x86_64 ] || command -v npm > /dev/null || optional_npm=npm
 # without them the tests in virtual machines are skipped; those run on a PC alone
@@ -60,7 +61,7 @@ for set in "$@"; do
     case $set in
     build) wanted="$wanted $build" extra="$extra $optional_build $optional_compiler" ;;
     run) wanted="$wanted $run" extra="$extra $optional_run" ;;
-    test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-} tmux" ;; # tmux: a terminal that scripts can type in
+    test) wanted="$wanted $test" extra="$extra $optional_test ${optional_npm:-} $optional_test_own" ;;
     board) [ "$own" != amd64 ] || extra="$extra $optional_board" ;;
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
     deb) wanted="$wanted $deb" extra="$extra $optional_deb $repository" ;;
