@@ -138,6 +138,8 @@ GN_OPTION(.name = "date", .section = "sun", .kind = GN_KIND_DATE, .value = "DATE
           .help = "moment of the sun: now, or a date 2026-12-21 (its noon by the clock), or one with a time 2026-12-21T09:30 by the clock of time_zone, unless Z or +01:00 follows", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.date))
 GN_OPTION(.name = "sun-time-zone", .key = "time_zone", .section = "sun", .kind = GN_KIND_TEXT, .value = "ZONE",
           .help = "time zone of date, as Europe/Berlin; without it the system's", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.time_zone))
+GN_OPTION(.name = "sun-speed", .key = "speed", .section = "sun", .kind = GN_KIND_NUMBER, .min = -1e6, .max = 1e6, .value = "F", .fallback = "1",
+          .help = "how fast the sun goes on from date: 1 as the clock, 3600 an hour in a second, 0 not at all", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.speed))
 GN_OPTION(.name = "sun-azimuth", .key = "azimuth", .section = "sun", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "where the sun stands, from north over east, in place of what place and date make; without a place auto is 180, south", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.azimuth_deg))
 GN_OPTION(.name = "sun-altitude", .key = "altitude", .section = "sun", .kind = GN_KIND_EV, .min = -90, .max = 90, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",

@@ -37,7 +37,7 @@ const struct gn_section_row gn_section_rows[GN_SECTION_COUNT] = {
     {.title = "light", .heading = "light of a scene without any", .place = 4, .of_content = true, .by_whole_names = true,
      .about = "These keys set the key light, which a scene without lights gets. [render] and modes take these keys, too, by the whole names of their options: light_azimuth."},
     {.title = "sun", .heading = "sun", .place = 5, .by_whole_names = true,
-     .about = "With a place, or an azimuth and an altitude, these keys make a light the real sun: its direction, size, colour and strength follow from place and time. It is the directional light that has gnomon_sun in the scene, else the key light of a scene without lights, else the first directional light. [render] and modes take these keys, too, by the whole names of their options: date, sun_latitude."},
+     .about = "With a place, or an azimuth and an altitude, these keys make a light the real sun: its direction, size, colour and strength follow from place and time. It is the directional light that has gnomon_sun in the scene, else the key light of a scene without lights, else the first directional light. [render] and modes take these keys, too, by the whole names of their options: date, sun_speed."},
     {.title = "kiosk", .heading = "kiosk", .place = 7,
      .about = "These keys set what gnomon show does by itself."},
     {.title = "schedule", .heading = "hours", .place = 8, .of_machine = true,

@@ -151,7 +151,8 @@ struct gn_sun_settings {
     double latitude_deg, longitude_deg; /* NAN: none */
     const char *date;                   /* "now", or what gn_date_parse() reads */
     const char *time_zone;              /* NULL: the system's */
-    double azimuth_deg, altitude_deg;   /* NAN: by place and date */
+    double speed;
+    double azimuth_deg, altitude_deg; /* NAN: by place and date */
     double turbidity;
 };
 struct gn_display_settings {

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "core/clock.h"
 #include "core/hash.h"
 #include "core/sun.h"
 #include "environment/daylight.h"
@@ -27,10 +28,28 @@ static bool has_place(const struct gn_settings *o, struct gn_place *place) {
     return !isnan(place->latitude_deg) && !isnan(place->longitude_deg);
 }
 
+static bool depends_on_time(const struct gn_settings *o) {
+    struct gn_place place;
+    return has_place(o, &place) && (isnan(o->sun.azimuth_deg) || isnan(o->sun.altitude_deg));
+}
+
+static bool is_now(const struct gn_settings *o) {
+    return !o->sun.date || strcmp(o->sun.date, "now") == 0;
+}
+
+bool gn_stage_sun_lacks_clock(const struct gn_settings *settings) {
+    return depends_on_time(settings) && is_now(settings) && time(NULL) < GN_CLOCK_PAST_S;
+}
+
 bool gn_stage_sun_is_set(const struct gn_settings *settings) {
     struct gn_place place;
-    return has_place(settings, &place) || !isnan(settings->sun.azimuth_deg) ||
-           !isnan(settings->sun.altitude_deg);
+    const bool given = has_place(settings, &place) || !isnan(settings->sun.azimuth_deg) ||
+                       !isnan(settings->sun.altitude_deg);
+    return given && !gn_stage_sun_lacks_clock(settings);
+}
+
+bool gn_stage_sun_moves(const struct gn_settings *settings) {
+    return depends_on_time(settings) && !gn_stage_sun_lacks_clock(settings);
 }
 
 int gn_stage_sun_light(const struct gn_scene *scene) {
@@ -45,7 +64,7 @@ int gn_stage_sun_light(const struct gn_scene *scene) {
 bool gn_stage_sun_time(const struct gn_settings *settings, double *utc_s, struct gn_err *err) {
     const struct gn_sun_settings *s = &settings->sun;
     struct gn_date date;
-    if (!s->date || strcmp(s->date, "now") == 0 || !gn_date_parse(s->date, &date)) {
+    if (is_now(settings) || !gn_date_parse(s->date, &date)) {
         *utc_s = (double)time(NULL);
         return true;
     }

@@ -6,8 +6,13 @@
 #include "frame/frame.h"
 #include "options/settings.h"
 
-/* Whether settings have a place, or an azimuth or an altitude. */
+/* Whether settings have a place, or an azimuth or an altitude, and do not lack a clock. */
 bool gn_stage_sun_is_set(const struct gn_settings *settings);
+/* Whether the sun is to be that of now, and the clock was never set: it shows a time before 2024.
+ */
+bool gn_stage_sun_lacks_clock(const struct gn_settings *settings);
+/* Whether the sun is set, and stands somewhere else at another time. */
+bool gn_stage_sun_moves(const struct gn_settings *settings);
 /* The light that becomes the sun: the first directional one with gnomon_sun, else the one made for
  * a scene without lights, else the first directional one; -1: the scene has none. */
 int gn_stage_sun_light(const struct gn_scene *scene);
