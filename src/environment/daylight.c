@@ -111,7 +111,8 @@ static void sky_on_ground(double altitude_deg, double turbidity, double rgb[3]) 
     const double sun = altitude_deg > 0 ? altitude_deg * DEGREE : 0;
     for (int k = 0; k < 3; k++) rgb[k] = 0;
     for (int i = 0; i < RINGS * SECTORS; i++) {
-        const double flat2 = (i / SECTORS + 0.5) / RINGS, up = sqrt(1 - flat2);
+        const int ring = i / SECTORS;
+        const double flat2 = (ring + 0.5) / RINGS, up = sqrt(1 - flat2);
         const double along = sqrt(flat2) * cos(2 * M_PI * (i % SECTORS + 0.5) / SECTORS);
         double part[3];
         sky_color(altitude_deg, turbidity, up,
