@@ -108,12 +108,12 @@ slide=$(base64 -w 0 < "$folder/slide.png")
 # a square in the plane of x and z: four positions, six indices
 square=$(printf '\000\000\200\277\000\000\000\000\000\000\200\077\000\000\200\077\000\000\000\000\000\000\200\077\000\000\200\077\000\000\000\000\000\000\200\277\000\000\200\277\000\000\000\000\000\000\200\277\000\000\001\000\002\000\000\000\002\000\003\000' | base64 -w 0)
 
-# scene ON_LIGHT ON_OBJECT ON_SCENE ON_MATERIAL: a .gltf with a spot over the square, and these members in their extras
+# scene ON_LIGHT ON_OBJECT ON_SCENE ON_MATERIAL: a .gltf with a light of the type $lamp over the square, and these members in their extras
 scene() {
     cat << JSON
 {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1], "extras": {$3}}],
  "extensionsUsed": ["KHR_lights_punctual"],
- "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 10, "extras": {$1}}]}},
+ "extensions": {"KHR_lights_punctual": {"lights": [{"type": "$lamp", "intensity": 10, "extras": {$1}}]}},
  "nodes": [{"mesh": 0, "extras": {$2}},
            {"translation": [0, 3, 0], "rotation": [-0.70710678, 0, 0, 0.70710678], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
@@ -128,8 +128,10 @@ JSON
 
 # try MEMBER SECTION: inspect's warnings about it
 try() {
+    lamp=spot
     case $2 in
-    Lights | Slides) scene "$1" '' '' '' ;;
+    Lights) lamp=directional && scene "$1" '' '' '' ;;
+    Slides) scene "$1" '' '' '' ;;
     Objects) scene '' "$1" '' '' ;;
     Materials) scene '' '' '' "$1" ;;
     *) scene '' '' "$1" '' ;;

@@ -13,6 +13,7 @@
 #include "options/ini.h"
 #include "options/value.h"
 #include "stage/lights.h"
+#include "stage/sun.h"
 
 /* Given up in this order, the least visible first: by the mean difference that each makes to the
  * pictures of six scenes (src/cost/README.md); errors in penumbrae are those of
@@ -171,7 +172,7 @@ static bool build_time(struct search *s, gn_fit_set taken, struct gn_inspect_tim
     if (!gn_stage_look_build(&look, &s->now, stage->scene, warnings, err)) return false;
     stage->shown.opts = look.frame_opts;
     leave_out_shadows(s->of, taken, stage->scene, &stage->shown.opts.shadow);
-    gn_stage_aim(&stage->pose, &stage->shown.opts, &s->now);
+    gn_stage_aim_lights(&stage->pose, &stage->shown.opts, &s->now);
     return gn_inspect_time_build(time, stage, s->of->gpu, warnings, err);
 }
 

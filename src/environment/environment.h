@@ -69,6 +69,18 @@ bool gn_environment_read_hdr(const uint8_t *data, size_t size,
                              const struct gn_environment_work *work, struct gn_environment *out,
                              struct gn_err *err);
 
+/* ---- the sky ---- */
+
+/* The light of a clear sky and of the ground below, with the sun in a unit direction that has the
+ * daylight's altitude: `whole`; the rest is zero, for the sun is a light of its own. With so many
+ * threads at most; the same input gives the same bits. */
+struct gn_daylight;
+void gn_environment_make_sky(const struct gn_daylight *daylight, const float to_sun[3], int threads,
+                             struct gn_environment *out);
+/* The same light, so many times as bright. */
+void gn_environment_scale(const struct gn_environment_light *of, float factor,
+                          struct gn_environment_light *out);
+
 /* ---- kept in a file ---- */
 
 enum { GN_ENVIRONMENT_FILE_BYTES = 8 + (int)offsetof(struct gn_environment, shown) + 8 };

@@ -69,7 +69,7 @@ static float texel_pixels(struct views *v, uint32_t slot, const struct gn_shadow
             if (!v->other.scene) gn_pose_init(&v->other, v->frame->scene, v->now->at.clips);
             if (v->now->at.over != v->other.at.over)
                 gn_pose_choose_over(&v->other, v->now->at.clips, v->now->at.over);
-            if (v->now->aimed) gn_pose_aim(&v->other, v->now->aim_ws);
+            if (v->now->aimed) gn_pose_aim(&v->other, v->now->aimed_light, v->now->aim_ws);
             const int64_t ns = v->lasts_ns / (OTHERS - 1) * (i - 1);
             const bool last = i == OTHERS && ns > 0; /* the end of the path, too */
             v->other.at.over_ns = last ? v->lasts_ns - 1 : ns;

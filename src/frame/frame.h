@@ -39,6 +39,8 @@ struct gn_frame_view_opts {
     int shift_px[2]; /* scene and captions stand so far to the right and up in the picture; captions
                         no further than its edge */
     float aside_px[2]; /* the same of the scene alone: parts of a pixel */
+    double sun_utc_s;  /* of the sun (stage/sun.h), which is in the pose and the lights: frames do
+                          not  read it */
 };
 
 struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it */
@@ -65,6 +67,7 @@ struct gn_frame_environment_opts {
     enum gn_environment_show show; /* in place of opts->background, unless that is transparent */
     float turn_rad;                /* about +Y */
     float strength;                /* factor on its radiance; 0: it gives no light */
+    bool is_sky;                   /* the sun's (stage/sun.h), made again as that moves */
 };
 
 struct gn_frame_occlusion_opts { /* ambient occlusion of what stays where it is, on diffuse light of

@@ -44,6 +44,7 @@ struct gn_part_host {
     const char *root;   /* before /sys and /proc */
     int64_t reading_ns; /* between two readings of the board's health; 0: 10 s */
     const struct gn_television_opts *television; /* in place of the configured adapter */
+    const int64_t *day_ahead_ns; /* the sun's time of day before the loop's; NULL: the system's */
 };
 
 enum gn_part_load {
@@ -105,6 +106,7 @@ struct gn_part {
     X(trial)                                                                                       \
     X(scene)                                                                                       \
     X(schedule)                                                                                    \
+    X(sun)                                                                                         \
     X(television)                                                                                  \
     X(health)                                                                                      \
     X(process)                                                                                     \

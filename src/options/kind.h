@@ -26,6 +26,16 @@ static inline bool gn_kind_keep(const struct gn_kind_input *in, void *field) {
     return true;
 }
 
+/* kind_number.c: a decimal number as in the C locale, all of the text, without inf and nan; one in
+ * the row's range; several with commas between them, or auto; a date */
+bool gn_kind_read_number(const char *text, double *out);
+bool gn_kind_parse_number(const struct gn_option_row *row, const char *text, double *field);
+bool gn_kind_parse_point(struct gn_kind_input *in, void *field);
+void gn_kind_print_point(const void *field, const struct gn_kind_output *to);
+bool gn_kind_parse_place(struct gn_kind_input *in, void *field);
+void gn_kind_print_place(const void *field, const struct gn_kind_output *to);
+bool gn_kind_parse_date(struct gn_kind_input *in, void *field);
+
 /* kind_button.c: a line, keys, names of buttons, an action */
 bool gn_kind_parse_line(struct gn_kind_input *in, void *field);
 bool gn_kind_parse_keys(struct gn_kind_input *in, void *field);

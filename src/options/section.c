@@ -26,7 +26,7 @@ static bool take_lights(struct gn_options *options, const struct gn_sections *se
 
 /* clang-format off */
 const struct gn_section_row gn_section_rows[GN_SECTION_COUNT] = {
-    {.title = "display", .heading = "display", .place = 5, .of_machine = true,
+    {.title = "display", .heading = "display", .place = 6, .of_machine = true,
      .about = "These keys set the screen: card, connector, mode.."},
     {.title = "scene", .heading = "scene", .place = 1, .of_content = true, .of_modes = true,
      .about = "These keys set what is shown."},
@@ -36,9 +36,11 @@ const struct gn_section_row gn_section_rows[GN_SECTION_COUNT] = {
      .about = "These keys set the place of the camera, the file's or an added one, and how far the mouse may take it. [render] and modes take these keys, too, by the whole names of their options: camera_theta."},
     {.title = "light", .heading = "light of a scene without any", .place = 4, .of_content = true, .by_whole_names = true,
      .about = "These keys set the key light, which a scene without lights gets. [render] and modes take these keys, too, by the whole names of their options: light_azimuth."},
-    {.title = "kiosk", .heading = "kiosk", .place = 6,
+    {.title = "sun", .heading = "sun", .place = 5, .by_whole_names = true,
+     .about = "With a place, or an azimuth and an altitude, these keys make a light the real sun: its direction, size, colour and strength follow from place and time. It is the directional light that has gnomon_sun in the scene, else the key light of a scene without lights, else the first directional light. [render] and modes take these keys, too, by the whole names of their options: date, sun_speed."},
+    {.title = "kiosk", .heading = "kiosk", .place = 7,
      .about = "These keys set what gnomon show does by itself."},
-    {.title = "schedule", .heading = "hours", .place = 7, .of_machine = true,
+    {.title = "schedule", .heading = "hours", .place = 8, .of_machine = true,
      .about = "These keys set when the screen is on, by local time."},
     {.title = "mode \"NAME\"", .has = is_of_mode, .takes_whole_names = true, .take = take_modes,
      .about = "There may be any number of modes; each has the keys of [scene], [render], [camera] and [light] that differ in it. The first one is shown at the start. Without any, and with a scene of your own, next and prev go through what that has: its cameras; the scenes of [scene], after the cameras of the one that is shown; its variants of materials. With one of each, they play the clip from its beginning; without a clip, they switch a turntable on and off. Each has the name that it has in the file, else its number (\"Camera 2\"). What an option or gnomon ctl set has chosen stays. With the sundial inside the program, in a window, and where --mode or a button names a technique, each technique is a mode."},

@@ -33,7 +33,7 @@ struct gn_section_row {
     bool (*take)(struct gn_options *options, const struct gn_sections *sections, bool checks,
                  struct gn_err *err);
 };
-enum { GN_SECTION_COUNT = 10 };
+enum { GN_SECTION_COUNT = 11 };
 extern const struct gn_section_row gn_section_rows[GN_SECTION_COUNT];
 
 bool gn_section_is_many(const struct gn_section_row *section);

@@ -146,6 +146,15 @@ struct gn_light_settings {             /* of the light made for a scene without 
     double intensity;                  /* only in sections of one light; NAN: as it is */
     bool on;                           /* likewise */
 };
+struct gn_sun_settings {
+    double place_deg[2];                /* latitude, longitude, of the flag; NAN: as below */
+    double latitude_deg, longitude_deg; /* NAN: none */
+    const char *date;                   /* "now", or what gn_date_parse() reads */
+    const char *time_zone;              /* NULL: the system's */
+    double speed;
+    double azimuth_deg, altitude_deg; /* NAN: by place and date */
+    double turbidity;
+};
 struct gn_display_settings {
     const char *backend, *card, *render_node, *connector;
     struct gn_display_mode mode; /* 0x0: the display's preferred one */
@@ -219,6 +228,7 @@ struct gn_settings {
     struct gn_render_settings render;
     struct gn_camera_settings camera;
     struct gn_light_settings light;
+    struct gn_sun_settings sun;
     struct gn_display_settings display;
     struct gn_kiosk_settings kiosk;
     struct gn_schedule_settings schedule;

@@ -63,6 +63,8 @@ enum gn_option_kind {
     GN_KIND_SCENES,     /* struct gn_scene_list: a path, given again it adds */
     GN_KIND_LIMIT,      /* struct gn_limits: NAME=VALUE, given again it adds */
     GN_KIND_POINT,      /* double[3], each min..max, or NAN for "auto"; "X,Y,Z" */
+    GN_KIND_PLACE,      /* double[2], latitude and longitude, or NAN for "auto"; "LAT,LON" */
+    GN_KIND_DATE,       /* const char *: "now", or what gn_date_parse() reads */
     GN_KIND_HOURS,      /* struct gn_schedule; the fallback is the word for no hours */
     GN_KIND_CAPS,       /* const char *: names of gn_cap, a comma between two */
     GN_KIND_MS,         /* int64_t nanoseconds; whole milliseconds, min..max */

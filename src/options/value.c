@@ -26,15 +26,6 @@ bool gn_parse_int(const char *text, int64_t *out) {
     return errno == 0;
 }
 
-/* Likewise, and without inf and nan. */
-static bool read_number(const char *text, double *out) {
-    char *end;
-    if (!text[0] || text[strspn(text, "+-.0123456789eE")] || !strpbrk(text, "0123456789"))
-        return false;
-    *out = strtod(text, &end);
-    return *end == '\0' && isfinite(*out);
-}
-
 static bool is_in_range(const struct gn_option_row *row, double value) {
     return value >= row->min && value <= row->max;
 }
@@ -82,15 +73,8 @@ static void print_ms(const void *field, const struct gn_kind_output *to) {
     gn_text_add(to->out, to->size, "%lld", (long long)(*(const int64_t *)field / NS_PER_MS));
 }
 
-static bool parse_one_number(const struct gn_option_row *row, const char *text, double *field) {
-    double value;
-    if (!read_number(text, &value) || !is_in_range(row, value)) return false;
-    *field = value;
-    return true;
-}
-
 static bool parse_number(struct gn_kind_input *in, void *field) {
-    return parse_one_number(in->row, in->text, field);
+    return gn_kind_parse_number(in->row, in->text, field);
 }
 
 /* "auto" is NAN, "none" INFINITY. */
@@ -137,29 +121,6 @@ static void print_seconds(const void *field, const struct gn_kind_output *to) {
     gn_text_add(to->out, to->size, "%.12g", (double)*(const int64_t *)field / (double)GN_NS_PER_S);
 }
 
-static bool parse_point(struct gn_kind_input *in, void *field) {
-    char part[32];
-    double point[3] = {NAN, NAN, NAN};
-    const char *text = in->text;
-    for (int k = 0; k < 3 && strcmp(text, "auto") != 0; k++) {
-        const size_t length = strcspn(text, ",");
-        if (length >= sizeof part || (text[length] == ',') != (k < 2)) return false;
-        snprintf(part, sizeof part, "%.*s", (int)length, text);
-        if (!parse_one_number(in->row, part, &point[k])) return false;
-        text += length + (k < 2);
-    }
-    memcpy(field, point, sizeof point);
-    return true;
-}
-
-static void print_point(const void *field, const struct gn_kind_output *to) {
-    const double *point = field;
-    if (isnan(point[0]))
-        print_number(point, to);
-    else
-        gn_text_add(to->out, to->size, "%.9g,%.9g,%.9g", point[0], point[1], point[2]);
-}
-
 /* "WxH" at the start of the text; NULL, or what follows. */
 static const char *parse_sides(const struct gn_kind_input *in, struct gn_size *sides) {
     const char *text = in->text;
@@ -192,7 +153,8 @@ static bool parse_mode(struct gn_kind_input *in, void *field) {
     double hz = 0;
     const char *rest = parse_sides(in, &sides);
     if (!rest) return false;
-    if (*rest && (*rest != '@' || !read_number(rest + 1, &hz) || hz < 1 || hz > 1000)) return false;
+    if (*rest && (*rest != '@' || !gn_kind_read_number(rest + 1, &hz) || hz < 1 || hz > 1000))
+        return false;
     *(struct gn_display_mode *)field =
         (struct gn_display_mode){sides.width_px, sides.height_px, hz};
     return true;
@@ -416,7 +378,9 @@ static const struct kind {
     [GN_KIND_EV] = {sizeof(double), false, parse_ev, print_number, .expected = "auto or a number from %.9g to %.9g"},
     [GN_KIND_LEVEL] = {sizeof(double), false, parse_level, print_number, .expected = "auto, none or a number from %.0f to %.0f"},
     [GN_KIND_SHARE] = {sizeof(double), false, parse_share, print_share, .expected = "auto, full or a number from %.0f to %.0f"},
-    [GN_KIND_POINT] = {3 * sizeof(double), false, parse_point, print_point, .expected = "auto or three numbers X,Y,Z"},
+    [GN_KIND_POINT] = {3 * sizeof(double), false, gn_kind_parse_point, gn_kind_print_point, .expected = "auto or three numbers X,Y,Z"},
+    [GN_KIND_PLACE] = {2 * sizeof(double), false, gn_kind_parse_place, gn_kind_print_place, .expected = "auto or LAT,LON: degrees north from -90 to 90, and east from -180 to 180"},
+    [GN_KIND_DATE] = {TEXT(gn_kind_parse_date), .expected = "now, a date 1900-01-01 to 2100-12-31, or one with a time: 2026-12-21T09:30, with Z or +01:00 behind it another zone than time_zone's"},
     [GN_KIND_CHOICE] = {sizeof(int), false, parse_choice, print_choice, .expect = expect_words},
     [GN_KIND_COLOR] = {sizeof(int), false, parse_color, print_color, .expect = expect_words},
     [GN_KIND_WORD] = {TEXT(parse_word), .expect = expect_words},

@@ -213,7 +213,7 @@ static void choose(struct gn_pose *pose, int clips, int over, bool fades) {
         if (!pose->items[i].moves) pose_item(pose, i);
     measure_still(pose);
     pose->box_ws = memory->still_ws;
-    if (pose->aimed) gn_pose_aim(pose, pose->aim_ws);
+    if (pose->aimed) gn_pose_aim(pose, pose->aimed_light, pose->aim_ws);
     gn_pose_step(pose, 0);
 }
 
@@ -398,12 +398,13 @@ void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws,
     gn_unit(direction_ws);
 }
 
-void gn_pose_aim(struct gn_pose *pose, const float *aim_ws) {
-    const struct gn_scene *scene = pose->scene;
-    if (!scene->added.light) return;
-    const uint32_t node = scene->lights[scene->light_count - 1].node;
+void gn_pose_aim(struct gn_pose *pose, uint32_t light, const float *aim_ws) {
+    if (pose->aimed && pose->aimed_light != light)
+        pose_node(pose, pose->scene->lights[pose->aimed_light].node);
+    const uint32_t node = pose->scene->lights[light].node;
     vec4 *world = pose->world_from_node[node];
     pose->aimed = aim_ws;
+    pose->aimed_light = light;
     pose_node(pose, node);
     if (!aim_ws) return;
     glm_vec3_copy((float *)aim_ws, pose->aim_ws);

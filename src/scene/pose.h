@@ -60,8 +60,9 @@ struct gn_pose {
     struct gn_box box_ws;       /* of all visible items */
     uint32_t *playing;          /* numbers of the clips that are on; the one over others is last */
     uint32_t playing_count;
-    bool animated; /* some clip is on: time changes the pose */
-    bool aimed;    /* the light that the loader added shines along aim_ws */
+    bool animated;        /* some clip is on: time changes the pose */
+    bool aimed;           /* a directional light shines along aim_ws */
+    uint32_t aimed_light; /* that light */
     vec3 aim_ws;
     vec4 *texels; /* scene->deformation.width x height; what vertex shaders read of skins and
                      targets: rows of world_from_mesh of each joint, and lists of weights */
@@ -103,9 +104,9 @@ void gn_pose_finish(struct gn_pose *pose);
 void gn_pose_view(const struct gn_pose *pose, uint32_t camera, mat4 view_from_world, vec3 eye_ws);
 /* The same for a light, along its -Z. */
 void gn_pose_light_view(const struct gn_pose *pose, uint32_t light, mat4 light_from_world);
-/* Turns the light that the loader added, until it is turned again: the unit vector along which it
- * shines; NULL: as it was added. Does nothing where the file has lights. */
-void gn_pose_aim(struct gn_pose *pose, const float *aim_ws);
+/* Turns a directional light, one of a pose, until it is turned again: the unit vector along which
+ * it shines; NULL: as its node stands. Where a clip moves that node, after each step. */
+void gn_pose_aim(struct gn_pose *pose, uint32_t light, const float *aim_ws);
 /* Position of a light and the unit vector along which it shines, world space. */
 void gn_pose_light(const struct gn_pose *pose, uint32_t light, vec3 position_ws, vec3 direction_ws);
 /* Normalises a vector of any length; zero stays zero. glm_vec3_normalize() of cglm 0.9 and later

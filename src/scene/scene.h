@@ -214,6 +214,7 @@ struct gn_light {
     float slide_far_m;      /* depth at which its picture ends; 0: nowhere */
     bool slide_lit_outside; /* light outside the slide: yes (film), no (projector) */
     bool range_moves;       /* by a clip */
+    bool is_sun;            /* gnomon_sun; directional */
     uint32_t record;        /* as of a material */
 };
 
@@ -307,6 +308,8 @@ struct gn_scene_environment { /* linear, after exposure */
     vec3 sky, ground;         /* radiance of the hemispheres */
     vec3 background;
     bool has_background; /* the file names one */
+    float north_deg; /* gnomon_north: north is -Z turned by this about +Y, counter-clockwise seen
+                        from above */
 };
 /* KHR_materials_variants: of a primitive with several materials there is an item for each, which
  * the pose hides in the variants of the others. */

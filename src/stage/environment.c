@@ -15,6 +15,7 @@
 #include "core/hash.h"
 #include "stage/kept.h"
 #include "stage/lights.h"
+#include "stage/sun.h"
 
 enum {
     FILE_MB = 256, /* of a Radiance file */
@@ -138,12 +139,22 @@ bool gn_stage_set_environment(struct gn_frame_opts *opts, const struct gn_settin
                               const struct gn_scene *scene, struct gn_err *err) {
     const char *name = settings->render.environment;
     const float strength = (float)settings->render.environment_strength;
-    const bool automatic = !name || strcmp(name, "auto") == 0,
-               reflected_only = automatic && !scene->added.light;
+    const bool automatic = !name || strcmp(name, "auto") == 0;
+    const bool is_sky =
+        automatic && gn_stage_sun_is_set(settings) && gn_stage_sun_light(scene) >= 0;
+    const bool reflected_only = automatic && !scene->added.light && !is_sky;
     opts->environment = (struct gn_frame_environment_opts){0};
     const enum gn_environment_show show =
         (enum gn_environment_show)settings->render.environment_show;
     const bool is_seen = !reflected_only || needs_reflections(scene) || show;
+    if (is_sky) {
+        opts->environment = (struct gn_frame_environment_opts){
+            .is_sky = true,
+            .show = show,
+            .turn_rad = glm_rad((float)settings->render.environment_turn_deg),
+            .strength = strength};
+        return true;
+    }
     if (automatic) name = is_seen ? "studio" : "none";
     if (strcmp(name, "none") == 0 || strength <= 0.0f) return true;
     const struct open_environment *open = open_environment(name, err);

@@ -101,11 +101,11 @@ static bool is_moved(const struct gn_light_settings *s) {
 
 /* To the key of the environment, or as it was made. */
 static void aim_at_key(struct gn_pose *pose, const struct gn_frame_environment_opts *e) {
-    gn_pose_aim(pose, NULL);
+    gn_pose_aim(pose, pose->scene->light_count - 1, NULL);
     if (!e->of || !e->lights_key) return;
     const float *d = e->of->key.direction, c = cosf(e->turn_rad), s = sinf(e->turn_rad);
     const vec3 along = {-(c * d[0] + s * d[2]), -d[1], -(c * d[2] - s * d[0])};
-    gn_pose_aim(pose, along);
+    gn_pose_aim(pose, pose->scene->light_count - 1, along);
 }
 
 void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
@@ -127,7 +127,7 @@ void gn_stage_aim(struct gn_pose *pose, const struct gn_frame_opts *opts,
     along[0] = -sinf(azimuth_rad) * cosf(elevation_rad);
     along[1] = -sinf(elevation_rad);
     along[2] = -cosf(azimuth_rad) * cosf(elevation_rad);
-    gn_pose_aim(pose, along);
+    gn_pose_aim(pose, pose->scene->light_count - 1, along);
 }
 
 void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,

@@ -167,7 +167,8 @@ static void start_thread(struct gn_occluder *o) {
 }
 
 struct gn_sky gn_stage_sky_of(const struct gn_frame_environment_opts *e) {
-    if (!e->of || e->reflected_only) return (struct gn_sky){.turn = {1, 0}};
+    /* one for all of a day, from all sides alike */
+    if (!e->of || e->reflected_only || e->is_sky) return (struct gn_sky){.turn = {1, 0}};
     return gn_stage_sky(e->lights_key ? &e->of->rest : &e->of->whole, e->turn_rad);
 }
 

@@ -14,6 +14,7 @@
 #include "stage/import.h"
 #include "stage/lights.h"
 #include "stage/occlusion.h"
+#include "stage/sun.h"
 #include "stage/wake.h"
 
 /* "lesson:solids" */
@@ -205,7 +206,7 @@ static bool occludes(const struct gn_settings *o, const struct gn_scene *scene,
     const uint64_t most = gn_stage_limits(o).memory_mb << 20;
     if (o->render.occlusion != GN_OCCLUSION_AUTO || scene->occlusion.size[0] == 0) return false;
     if (gn_raycast_bytes(scene) > most / 4) return false;
-    return o->render.aov == GN_AOV_OCCLUSION || (e->of && !e->reflected_only);
+    return o->render.aov == GN_AOV_OCCLUSION || e->is_sky || (e->of && !e->reflected_only);
 }
 
 /* [camera]: what is not given stays as the camera has it. */
@@ -243,6 +244,9 @@ bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o
     if (!gn_stage_set_environment(&look->frame_opts, o, scene, err) &&
         !do_without(o, offsetof(struct gn_settings, render.environment), warnings, err))
         return false;
+    if (!gn_stage_sun_start(&look->frame_opts, o, scene, warnings, err) &&
+        !do_without(o, offsetof(struct gn_settings, sun.time_zone), warnings, err))
+        return false;
     look->frame_opts.occlusion.on = occludes(o, scene, &look->frame_opts.environment);
     gn_stage_set_lights(&look->frame_opts.shadow, o, scene, warnings);
     struct gn_frame_environment_opts *e = &look->frame_opts.environment;
@@ -268,7 +272,7 @@ bool gn_stage_take(struct gn_stage *stage, const struct gn_settings *settings,
     gn_pose_choose_variant(&stage->pose, look.variant);
     stage->pose.at.run = look.run;
     gn_pose_step(&stage->pose, settings->scene.time_ns);
-    gn_stage_aim(&stage->pose, &stage->shown.opts, settings);
+    gn_stage_aim_lights(&stage->pose, &stage->shown.opts, settings);
     return true;
 }
 

@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "stage/lights.h"
 #include "stage/rays.h"
+#include "stage/sun.h"
 
 void gn_view_stop(struct gn_view *view) {
     gn_frame_destroy(view->builder);
@@ -45,6 +45,7 @@ static void count_changes(struct gn_view *view) {
     memcpy(&now.output, &view->opts.output, sizeof now.output);
     now.output.scaled_later = false; /* the same picture */
     memcpy(&now.at, &view->pose->at, sizeof now.at);
+    if (view->pose->aimed) glm_vec3_copy(view->pose->aim_ws, now.aim_ws);
     if (gn_pose_stands(view->pose)) now.at.time_ns = INT64_MIN; /* all times are the same moment */
     if (memcmp(&now, &view->posed, sizeof now) == 0) return;
     memcpy(&view->posed, &now, sizeof now);
@@ -56,7 +57,7 @@ void gn_view_pose(struct gn_view *view, const struct gn_settings *settings, int6
     const double turned_deg =
         fmod(settings->scene.turntable_deg_s * ((double)(time_ns - view->rested_ns) * 1e-9), 360.0);
     view->opts.view.turntable_rad = glm_rad((float)turned_deg);
-    gn_stage_aim(view->pose, &view->opts, settings);
+    gn_stage_aim_lights(view->pose, &view->opts, settings);
     count_changes(view);
 }
 

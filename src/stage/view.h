@@ -29,6 +29,7 @@ struct gn_view {
         struct gn_frame_view_opts view;
         struct gn_frame_output_opts output;
         struct gn_moment at;
+        vec3 aim_ws; /* of the light that is turned */
     } posed;
 };
 

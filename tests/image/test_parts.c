@@ -29,6 +29,7 @@ static const struct trial {
     [GN_PART_trial] = {.why = "it has no settings"},
     [GN_PART_scene] = {.why = "it has no settings"},
     [GN_PART_schedule] = {"schedule", "dim = 00:00-24:00", NULL},
+    [GN_PART_sun] = {"sun", "latitude = 52.5\nlongitude = 13.4", NULL},
     [GN_PART_television] = {"schedule", "off = cec\ncec_device = /dev/null", NULL},
     [GN_PART_health] = {.why = "it has no settings"},
     [GN_PART_process] = {.why = "it has no settings"},

@@ -63,7 +63,8 @@ static void test_rise_noon_and_set_are_those_of_nrel(void **state) {
  */
 static void test_refraction_is_that_of_bennett(void **state) {
     (void)state;
-    for (double h = -0.5; h <= 90; h += 0.25) {
+    for (int i = -2; i <= 360; i++) {
+        const double h = i * 0.25;
         double lifted = gn_sun_refraction_deg(h), apparent = h + lifted;
         double bennett = 1 / tan((apparent + 7.31 / (apparent + 4.4)) * M_PI / 180) / 60;
         assert_near(lifted, bennett, 0.1 / 60);
@@ -75,7 +76,8 @@ static void test_refraction_is_that_of_bennett(void **state) {
 static void test_refraction_has_no_step(void **state) {
     (void)state;
     double before = gn_sun_refraction_deg(-90);
-    for (double h = -90; h < 90; h += 0.01) {
+    for (int i = -9000; i < 9000; i++) {
+        const double h = i * 0.01;
         double lifted = gn_sun_refraction_deg(h);
         assert_near(lifted, before, 0.0075); /* the slope at -1 degree is .7 */
         assert_true(lifted > -0.001 && lifted < 1);
@@ -113,7 +115,8 @@ static void test_a_polar_day_begins_with_a_rise_without_a_set(void **state) {
 static void test_everything_is_finite_at_the_poles_and_far_from_now(void **state) {
     (void)state;
     for (int latitude = -90; latitude <= 90; latitude += 45)
-        for (double s = -4e9; s <= 8e9; s += 1.37e8) {
+        for (int i = 0; i < 88; i++) {
+            const double s = -4e9 + i * 1.37e8;
             struct gn_place place = {latitude, 180};
             struct gn_sun_view view = gn_sun_view(s, &place);
             assert_true(view.azimuth_deg >= 0 && view.azimuth_deg <= 360);

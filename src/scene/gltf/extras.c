@@ -30,6 +30,17 @@ static void take_float(struct gn_gltf *g, const struct gn_at *extras, const char
     warn_wanted(g, &at, wanted);
 }
 
+static void take_degrees(struct gn_gltf *g, const struct gn_at *extras, const char *key,
+                         float *out) {
+    struct gn_at at = gn_at_any(extras, key);
+    double value;
+    if (!at.json) return;
+    if (gn_json_number(at.json, &value) && fabs(value) <= 360)
+        *out = (float)value;
+    else
+        warn_wanted(g, &at, "a number of degrees from -360 to 360");
+}
+
 /* true, false, or 1 and 0, which older exporters write. */
 static bool take_flag(struct gn_gltf *g, const struct gn_at *extras, const char *key, bool *out) {
     struct gn_at at = gn_at_any(extras, key);
@@ -135,6 +146,10 @@ void gn_extras_light(struct gn_gltf *g, const struct gn_at *holder, struct gn_li
     take_float(g, &extras, "gnomon_radius", FLT_MAX, &light->radius);
     take_float(g, &extras, "gnomon_shadow_strength", 1, &light->shadow_strength);
     take_float(g, &extras, "gnomon_shadow_specular", 1, &light->shadow_specular);
+    if (light->type == GN_LIGHT_DIRECTIONAL)
+        take_flag(g, &extras, "gnomon_sun", &light->is_sun);
+    else if (gn_at_any(&extras, "gnomon_sun").json)
+        gn_gltf_warn(g, &extras, "gnomon_sun: only a directional light can be the sun; ignored");
     int64_t px = light->map_px;
     take_whole(g, &extras, "gnomon_map_px", 16, 16384, &px);
     light->map_px = (uint32_t)px;
@@ -193,6 +208,7 @@ void gn_extras_scene(struct gn_gltf *g, const struct gn_at *scene) {
     if (json_is_object(extras.json)) {
         take_color(g, &extras, "gnomon_sky", s->environment.sky);
         take_color(g, &extras, "gnomon_ground", s->environment.ground);
+        take_degrees(g, &extras, "gnomon_north", &s->environment.north_deg);
     }
     glm_vec3_lerp(s->environment.sky, s->environment.ground, .5f, s->environment.background);
     if (json_is_object(extras.json))

@@ -1,0 +1,94 @@
+/* A day of the sun in a kiosk, on a fake clock and a fake time of day. */
+#include "unit/check.h"
+
+#include <math.h>
+
+#include "core/clock.h"
+#include "core/sun.h"
+#include "kiosk/private.h"
+#include "unit/show_help.h"
+
+static int64_t clock_ns, ahead_ns; /* of the time of day */
+static const int64_t HOUR_NS = 3600 * GN_NS_PER_S;
+
+static struct gn_show *open_show(const char *config, int64_t utc_s) {
+    struct gn_show *show = help_show_of(config, (const char *const[]){"--no-animation", NULL});
+    clock_ns = gn_clock_monotonic_ns();
+    gn_loop_fake_clock(show->loop, &clock_ns);
+    ahead_ns = utc_s * GN_NS_PER_S - clock_ns;
+    show->parts.host.day_ahead_ns = &ahead_ns;
+    show->parts.rows[GN_PART_sun]->reopen(show->parts.of[GN_PART_sun]);
+    return show;
+}
+
+/* Time goes on by so much; returns the frames. */
+static uint64_t run(struct gn_show *show, int64_t ns) {
+    const int64_t until_ns = clock_ns + ns;
+    const uint64_t before = show->counts.frames;
+    struct gn_timer end = {.due_ns = until_ns};
+    struct gn_err err = {0};
+    gn_loop_add_timer(show->loop, &end);
+    while (clock_ns < until_ns)
+        if (!gn_show_step(show, &err)) fail_msg("%s", err.text);
+    gn_loop_remove_timer(&end);
+    return show->counts.frames - before;
+}
+
+/* The light is where the sun was at most that many seconds ago. */
+static void assert_shown(struct gn_show *show, double utc_s, double late_s) {
+    static const struct gn_place berlin = {52.5, 13.4};
+    const struct gn_pose *pose = &show->screen.stage.pose;
+    const double shown_s = show->screen.stage.shown.opts.view.sun_utc_s;
+    const struct gn_sun_view view = gn_sun_view(shown_s, &berlin);
+    float to_ws[3];
+    if (shown_s > utc_s || shown_s < utc_s - late_s)
+        fail_msg("the sun of %.0f s later is shown", shown_s - utc_s);
+    gn_sun_direction(view.azimuth_deg, fmax(view.altitude_deg, 0), 0, to_ws);
+    for (int k = 0; k < 3; k++) assert_true(fabsf(pose->aim_ws[k] + to_ws[k]) < 1e-5f);
+}
+
+#define PLACE "[sun]\nlatitude = 52.5\nlongitude = 13.4\n"
+
+static void a_day_follows_the_clock_and_its_jumps(void **state) {
+    (void)state;
+    const int64_t begin_s = 1782014400; /* 21 June 2026, 4 h UTC */
+    struct gn_show *show = open_show(PLACE "[kiosk]\ncaptions = no\n[render]\ngather = none\n"
+                                           "[mode \"a\"]\nshadow = hard\n",
+                                     begin_s);
+    run(show, 30 * GN_NS_PER_S);
+    assert_shown(show, (double)(clock_ns + ahead_ns) * 1e-9, 13);
+    for (int hour = 5; hour <= 21; hour += 4) {
+        const int64_t then_s = begin_s + (hour - 4) * 3600;
+        ahead_ns = (then_s - 60) * GN_NS_PER_S - clock_ns; /* a jump */
+        const uint64_t frames = run(show, 60 * GN_NS_PER_S + GN_NS_PER_S / 2);
+        assert_shown(show, (double)then_s + 0.6, 0.6); /* as render --date has it */
+        assert_in_range(frames, 5, 14);                /* a minute */
+    }
+    gn_show_close(show);
+}
+
+static void a_time_lapse_runs_from_its_date(void **state) {
+    (void)state;
+    struct gn_show *show =
+        open_show(PLACE "date = 2026-12-21T09:00Z\nspeed = 60\n[kiosk]\ncaptions = no\n[render]\n"
+                        "gather = none\n[mode \"a\"]\nshadow = hard\n[mode \"b\"]\nshadow = hard\n"
+                        "date = 2026-03-20T12:00Z\nsun_speed = 0\n",
+                  0);
+    run(show, 10 * GN_NS_PER_S);
+    assert_shown(show, 1797843600 + 600, 30);
+    run(show, 20 * GN_NS_PER_S);
+    assert_shown(show, 1797843600 + 1800, 30);
+    gn_show_act(&show->screen, &(struct gn_action){.kind = GN_ACTION_NEXT}, clock_ns);
+    run(show, 5 * GN_NS_PER_S);
+    assert_shown(show, 1774008000, 0);
+    assert_int_equal(run(show, HOUR_NS / 60), 0); /* it stands still */
+    gn_show_close(show);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_day_follows_the_clock_and_its_jumps),
+        cmocka_unit_test(a_time_lapse_runs_from_its_date),
+    };
+    return RUN(tests);
+}
