@@ -15,7 +15,7 @@ struct gn_show_text {
     char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
-    char modes[120];           /* the caption of a mode or a scene */
+    char change[160];          /* the caption of a mode or a scene */
 };
 
 /* With the font of the settings; called again after a reload. A font that cannot be used is an

@@ -15,7 +15,7 @@ static void pause(struct gn_show_screen *s) {
 static void tell(struct gn_show_screen *s, int percent) {
     s->truth.percent = percent;
     s->truth.told_ns = gn_loop_now_ns(s->show->loop);
-    gn_show_note(s, "truth %d %%", percent);
+    gn_show_note(s, "Ray tracing %d %%", percent);
 }
 
 void gn_truth_drop(struct gn_show_screen *s) {
@@ -36,7 +36,7 @@ void gn_truth_end(struct gn_show_screen *s) {
 
 void gn_truth_begin(struct gn_show_screen *s) {
     if (s->stage.display.screen.rotate_deg != 0) {
-        gn_show_note(s, "truth: not on a rotated screen");
+        gn_show_note(s, "Ray tracing: not on a rotated screen");
         return;
     }
     gn_truth_drop(s);
@@ -51,7 +51,7 @@ void gn_truth_step(struct gn_show_screen *s) {
     if (!t->on) return;
     if (!s->kiosk.paused) {
         gn_truth_end(s);
-        gn_show_note(s, "the scene goes on: no truth");
+        gn_show_note(s, "The scene moves on: no ray tracing");
         return;
     }
     if (!t->rays || t->shown) return;

@@ -54,15 +54,15 @@ static void choose_camera(struct gn_show_screen *s, int number) {
     if (place < count)
         gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_CAMERA, .camera = camera});
     else
-        gn_show_note(s, "the scene has %u camera%s", count, count == 1 ? "" : "s");
+        gn_show_note(s, "The scene has %u camera%s", count, count == 1 ? "" : "s");
 }
 
 static void change_speed(struct gn_show_screen *s, int by) {
     gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = by});
     if (s->kiosk.speed >= 0)
-        gn_show_note(s, "speed %d", 1 << s->kiosk.speed);
+        gn_show_note(s, "Speed x%d", 1 << s->kiosk.speed);
     else
-        gn_show_note(s, "speed 1/%d", 1 << -s->kiosk.speed);
+        gn_show_note(s, "Speed 1/%d", 1 << -s->kiosk.speed);
 }
 
 static bool set_option(struct gn_show_screen *s, const char *key, const char *value) {
@@ -76,7 +76,7 @@ static bool set_option(struct gn_show_screen *s, const char *key, const char *va
 static void change_environment(struct gn_show_screen *s) {
     const bool shown = s->looks.of[s->kiosk.shown.mode].frame_opts.environment.of;
     const char *next = shown ? "none" : "studio";
-    if (set_option(s, "environment", next)) gn_show_note(s, "environment: %s", next);
+    if (set_option(s, "environment", next)) gn_show_note(s, "Environment: %s", next);
 }
 
 /* All, as the scene begins, then each, then none. */
@@ -90,9 +90,9 @@ static void choose_clip(struct gn_show_screen *s) {
     char value[16];
     snprintf(value, sizeof value, "%d", next);
     if (count == 0)
-        gn_show_note(s, "the scene has no clips");
+        gn_show_note(s, "The scene has no clips");
     else if (set_option(s, "animation", next < count ? value : "none"))
-        gn_show_note(s, "clip: %s", next < count ? scene->animation.clips[next].name : "none");
+        gn_show_note(s, "Clip: %s", next < count ? scene->animation.clips[next].name : "none");
 }
 
 /* ---- screenshots ---- */
@@ -104,7 +104,7 @@ static void finish_screenshot(void *user, int64_t now_ns) {
     (void)now_ns;
     if (!gn_screenshot_take(s->viewer.screenshot, &ok, &err)) return;
     if (ok)
-        gn_show_note(s, "wrote %s", s->viewer.screenshot_path);
+        gn_show_note(s, "Saved %s", s->viewer.screenshot_path);
     else
         gn_show_note(s, "%s", err.text);
 }
@@ -133,7 +133,7 @@ static void write_screenshot(struct gn_show_screen *s) {
     if (!v->screenshot) {
         gn_show_note(s, "%s", err.text);
     } else if (!choose_path(s, v->screenshot_path, sizeof v->screenshot_path)) {
-        gn_show_note(s, "screenshot: this folder has 999 of this scene, or cannot be read");
+        gn_show_note(s, "Not saved: this folder has 999 pictures of this scene, or cannot be read");
     } else {
         gn_screenshot_ask(v->screenshot, v->screenshot_path, -1);
         s->changed = true;
@@ -154,7 +154,7 @@ static void run_command(struct gn_show_screen *s, enum gn_viewer_command command
     case GN_VIEWER_TRUTH: gn_split_toggle_truth(s); break;
     case GN_VIEWER_SCREENSHOT: write_screenshot(s); break;
     case GN_VIEWER_RELOAD:
-        gn_show_note(s, "reloading ..");
+        gn_show_note(s, "Loading again ..");
         s->show->reloads = true;
         break;
     default: break;
