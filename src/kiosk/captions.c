@@ -15,12 +15,13 @@ void gn_show_open_captions(struct gn_show_screen *s) {
     s->text.captions = gn_captions_create(&opts);
     s->text.view = (struct gn_kiosk_view){0};
     s->text.since_ns = 0;
+    s->text.card[0] = '\0';
     struct gn_err why = {0};
     if (!opts.font || gn_captions_open_font(s->text.captions, &why)) return;
     char text[sizeof why.text + 64];
     gn_fail_prefix(&why, "%s", gn_settings_label(s->stage.settings, render.font));
     snprintf(text, sizeof text, "%s (texts are shown in the built-in font)", why.text);
-    gn_show_report_error(s->show, GN_PROBLEM_CONFIG, text);
+    gn_show_report_error(s->show, GN_PROBLEM_FONT, text);
 }
 
 const char *gn_show_path_name(const char *path) {
@@ -33,6 +34,17 @@ static const char *write_title(const char *path, char out[120]) {
     char *dot = strrchr(out, '.');
     if (dot && dot > out) *dot = '\0';
     return out;
+}
+
+/* What config_error has; false: nothing. */
+static bool find_lasting(const struct gn_show *s, const struct gn_problem_words **words,
+                         const char **shown) {
+    const struct gn_options *o = s->config.options;
+    const bool is_own = o->config_error == s->config.error;
+    const char *text = is_own ? s->config.shown : o->config_shown;
+    *words = &gn_problem_words[is_own ? s->config.kind : GN_PROBLEM_CONFIG];
+    *shown = text ? text : "";
+    return o->config_error;
 }
 
 /* ---- loading ---- */
@@ -92,9 +104,28 @@ static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_v
     case GN_KIOSK_CAPTION_CAMERA:
         return s->stage.scene->cameras[s->stage.shown.opts.view.camera].name;
     case GN_KIOSK_CAPTION_NOTE: return s->viewer.note;
+    case GN_KIOSK_CAPTION_PROBLEM: {
+        const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
+        return kind < GN_PROBLEM_COUNT ? gn_problem_words[kind].title : NULL;
+    }
     case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "Paused" : NULL;
     default: return NULL;
     }
+}
+
+/* What lasts: a card of it for a while, then a mark. */
+static void write_card(struct gn_show_screen *s, int64_t now_ns) {
+    struct gn_show_text *t = &s->text;
+    const struct gn_problem_words *words;
+    const char *shown;
+    char card[sizeof t->card] = "";
+    if (find_lasting(s->show, &words, &shown))
+        gn_text_add(card, sizeof card, "%s\n%s%s%s", words->title, shown, *shown ? "\n" : "",
+                    words->advice);
+    if (strcmp(card, t->card) == 0) return;
+    memcpy(t->card, card, sizeof card);
+    gn_captions_set(t->captions, GN_CAPTION_CARD, card, now_ns);
+    gn_captions_set(t->captions, GN_CAPTION_MARK, card[0] ? "!" : NULL, now_ns);
 }
 
 void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view *view,
@@ -104,18 +135,13 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     const bool on_side = f->output.turn_deg / 90 % 2;
 
     /* captions of changes: a text is set only when it changes */
-    const char *error = s->show->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM)
-        error = gn_problem_last(&s->show->problems);
-    char loading[200];
-    const bool loads = !error && is_loading(s, now_ns);
-    if (loads) {
-        char title[120];
+    char loading[200] = "", title[120];
+    const bool loads = is_loading(s, now_ns);
+    if (loads)
         snprintf(loading, sizeof loading, "Loading %s ..", write_title(loading_path(s), title));
-        error = loading;
-    }
     t->bar = progress_percent(s, now_ns);
-    gn_captions_set(t->captions, GN_CAPTION_ERROR, error, now_ns);
+    gn_captions_set(t->captions, GN_CAPTION_TEXT, loading, now_ns);
+    write_card(s, now_ns);
     gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
     if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
         t->view = *view;
@@ -126,8 +152,8 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     }
 
     /* the information page, or the help page over it */
-    const struct gn_info info = {
-        .scene = gn_show_path_name(s->show->scenes.paths[view->scene]),
+    struct gn_info info = {
+        .scene = write_title(s->show->scenes.paths[view->scene], title),
         .mode = s->show->modes.titles[view->mode],
         .missing = s->stage.scene ? s->stage.scene->missing : NULL,
         .screen = &s->stage.display.screen,
@@ -135,6 +161,9 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
         .uptime_ns = now_ns - s->show->counts.begun_ns,
         .board = gn_parts_board(&s->show->parts),
     };
+    const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
+    if (!find_lasting(s->show, &info.problem, &info.shown))
+        info.problem = kind < GN_PROBLEM_COUNT ? &gn_problem_words[kind] : NULL;
     if (t->help[0] || !view->info) {
         t->page.made = false;
         gn_captions_set(t->captions, GN_CAPTION_INFO, t->help, now_ns);

@@ -18,9 +18,9 @@ struct gn_show_modes {
     const char *names[GN_KIOSK_MODES_MAX];
     char titles[GN_KIOSK_MODES_MAX][64]; /* the same on the screen */
     uint32_t passed_by;                  /* as in gn_kiosk_rules */
-    int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
-    int base;                         /* the one without settings of its own; -1: none */
-    bool offered;                     /* they are these: */
+    int settings[GN_KIOSK_MODES_MAX];    /* places in options->all */
+    int base;                            /* the one without settings of its own; -1: none */
+    bool offered;                        /* they are these: */
     struct gn_offers offers;
 };
 /* Of one scene, for each mode: how it is drawn, and about its programs. */

@@ -12,6 +12,7 @@ struct gn_show_text {
     struct gn_captions *captions;
     struct gn_info_page page;
     int bar;                   /* percent of a load, as the last frame showed it; -1: none */
+    char card[400];            /* of the problem that lasts; "": none */
     char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */

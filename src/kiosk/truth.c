@@ -1,5 +1,7 @@
 #include "kiosk/truth.h"
 
+#include <stdio.h>
+
 #include "core/clock.h"
 #include "kiosk/private.h"
 #include "stage/rays.h"
@@ -114,7 +116,8 @@ const struct gn_plan *gn_truth_draw(struct gn_show_screen *s, int64_t time_ns, s
     } else if (!t->rays && gn_loop_now_ns(s->show->loop) >= t->changed_ns + REST_NS &&
                !begin_rays(s, &why)) {
         gn_truth_end(s);
-        gn_show_note(s, "%s", why.text);
+        fprintf(stderr, "gnomon: warning: %s\n", why.text);
+        gn_show_note(s, "Ray tracing: this scene has none");
     }
     return gn_view_draw(view, &s->stage, time_ns, s->show->warnings, err);
 }

@@ -31,21 +31,35 @@ static void add_button(const struct gn_button_config *button, char *out, size_t 
     }
     const int command = gn_ctl_find(gn_action_name(button->on[GN_GESTURE_PRESS].action.kind));
     if (*comma)
-        gn_text_add(out, size, ": %s\n",
+        gn_text_add(out, size, "\t%s\n",
                     command >= 0 ? gn_ctl_rows[command].what : "another action");
 }
 
+/* A title, then groups: a heading, rows, an empty line. */
 static void show_help(struct gn_show_screen *s, bool on) {
+    char *out = s->text.help;
+    const size_t size = sizeof s->text.help;
     s->viewer.helps = on;
-    s->text.help[0] = 0;
-    for (const struct gn_viewer_key *row = gn_viewer_keys; on && row->name; row++)
-        gn_text_add(s->text.help, sizeof s->text.help, "%s: %s\n", row->name, row->meaning);
+    *out = 0;
+    if (on) gn_text_add(out, size, "Keys\n");
+    for (const struct gn_viewer_key *row = gn_viewer_keys; on && row->name; row++) {
+        if (row->group)
+            gn_text_add(out, size, "%s%s\n", row == gn_viewer_keys ? "" : "\n", row->group);
+        gn_text_add(out, size, "%s\t%s\n", row->name, row->meaning);
+    }
+    if (on && s->show->buttons.map.count > 0) gn_text_add(out, size, "\nButtons\n");
     for (int i = 0; on && i < s->show->buttons.map.count; i++)
-        add_button(&s->show->buttons.map.items[i], s->text.help, sizeof s->text.help);
+        add_button(&s->show->buttons.map.items[i], out, size);
     s->changed = true;
 }
 
 /* ---- commands ---- */
+
+/* The reason is for the terminal. */
+static void show_failure(struct gn_show_screen *s, const char *what, const struct gn_err *err) {
+    fprintf(stderr, "gnomon: warning: %s\n", err->text);
+    gn_show_note(s, "%s", what);
+}
 
 static void choose_camera(struct gn_show_screen *s, int number) {
     const uint32_t count = s->stage.scene->camera_count, place = (uint32_t)number;
@@ -68,7 +82,7 @@ static void change_speed(struct gn_show_screen *s, int by) {
 static bool set_option(struct gn_show_screen *s, const char *key, const char *value) {
     struct gn_err err = {0};
     if (gn_show_set_option(s, gn_changes_find(key, &err), value, &err)) return true;
-    gn_show_note(s, "%s", err.text);
+    show_failure(s, "Not changed", &err);
     return false;
 }
 
@@ -106,7 +120,7 @@ static void finish_screenshot(void *user, int64_t now_ns) {
     if (ok)
         gn_show_note(s, "Saved %s", s->viewer.screenshot_path);
     else
-        gn_show_note(s, "%s", err.text);
+        show_failure(s, "The picture could not be saved", &err);
 }
 
 /* The first free gnomon-SCENE-NNN.png. */
@@ -131,7 +145,7 @@ static void write_screenshot(struct gn_show_screen *s) {
     if (!v->screenshot)
         v->screenshot = gn_screenshot_create(s->show->loop, finish_screenshot, s, &err);
     if (!v->screenshot) {
-        gn_show_note(s, "%s", err.text);
+        show_failure(s, "The picture could not be saved", &err);
     } else if (!choose_path(s, v->screenshot_path, sizeof v->screenshot_path)) {
         gn_show_note(s, "Not saved: this folder has 999 pictures of this scene, or cannot be read");
     } else {

@@ -228,6 +228,7 @@ static void report_lines(struct gn_options *options, struct gn_warnings *warning
     gn_text_format(text, sizeof text, "%s", errors->items[0].text);
     if (more > 0) gn_text_add(text, sizeof text, " (and %d more)", more);
     options->config_error = gn_arena_strdup(&options->arena, text);
+    options->config_shown = gn_arena_strdup(&options->arena, errors->items[0].shown);
 }
 
 static bool read_lesson(struct args *args, struct gn_err *err) {
@@ -270,6 +271,7 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     if (is_read) load_config(options, path, is_kiosk, NULL);
     report_lines(options, NULL);
     options->config_error = gn_arena_strdup(&options->arena, why.text);
+    options->config_shown = gn_arena_strdup(&options->arena, why.shown);
     if (is_kiosk)
         gn_warn(warnings, "%s (running with %s)", why.text,
                 is_read && path[0] ? path : "the defaults");

@@ -135,9 +135,10 @@ static bool keep_valid(struct gn_options *options, struct gn_sections *kept, boo
         struct gn_err why = {0};
         valid[i] = check_place(section, &why) && check_actions(kept, section, &why) &&
                    check_chord(kept, section, &why);
-        if (!says || (valid[i] && check_modes(options, section, &why)) ||
-            gn_errors_take(options->errors, &why))
-            continue;
+        if (!says || (valid[i] && check_modes(options, section, &why))) continue;
+        gn_text_format(why.shown, sizeof why.shown, "Line %d: the button \"%s\" cannot be used.",
+                       section->line, section->name);
+        if (gn_errors_take(options->errors, &why)) continue;
         *err = why;
         return false;
     }

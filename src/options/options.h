@@ -29,6 +29,7 @@ struct gn_options {
      * NULL. In a kiosk that runs it is also why the last reload failed, or another lasting problem,
      * while the configuration before stays in use (gn_show_report_error()). */
     const char *config_error;
+    const char *config_shown; /* what the screen says of that; "" or NULL: what it says of any */
 
     struct gn_errors *errors; /* while a file is read to its end, and with --check: all of it */
 

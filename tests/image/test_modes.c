@@ -180,7 +180,7 @@ static void the_page_names_the_scene_inside_the_program(void **state) {
     help_show_frames(show, 1);
     help_show_act(show, GN_ACTION_INFO);
     help_show_frames(show, 1);
-    if (!strstr(show->screen.text.page.text, "\nScene: default scene\n"))
+    if (!strstr(show->screen.text.page.text, "\nScene\tSundial\n"))
         fail_msg("%s", show->screen.text.page.text);
     gn_show_close(show);
 }
