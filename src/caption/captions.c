@@ -5,27 +5,18 @@
 
 #include "caption/atlas.h"
 #include "caption/layout.h"
+#include "caption/page.h"
 #include "core/arena.h"
 
 enum {
     TEXT_BYTES = 2048,
-    LINES_MAX = 32,
-    QUADS_MAX = 1536, /* more are not drawn */
-    LINE_MIN_PX = 8,
-    LINE_MAX_PX = 128,
+    QUADS_MAX = 2560, /* more are not drawn */
+    MARK_SHARE = 80,  /* so many marks fill the picture's shorter side */
 };
 
-/* Place and size of each kind. */
-static const struct row {
-    uint32_t lines_a_side; /* this many lines fill the picture's shorter side */
-    uint32_t most_lines;   /* 0: as many as there is room for */
-    bool wraps, at_top;
-    int64_t lasts_ns; /* 0: until it is removed */
-} rows[GN_CAPTION_KIND_COUNT] = {
-    [GN_CAPTION_INFO] = {.lines_a_side = 30, .at_top = true},
-    [GN_CAPTION_MODE] = {.lines_a_side = 24, .most_lines = 1, .lasts_ns = GN_CAPTION_MODE_NS},
-    [GN_CAPTION_ERROR] = {.lines_a_side = 24, .most_lines = 8, .wraps = true},
-};
+static const int64_t lasts_ns[GN_CAPTION_KIND_COUNT] = {/* 0: until it is removed */
+                                                        [GN_CAPTION_MODE] = GN_CAPTION_MODE_NS,
+                                                        [GN_CAPTION_CARD] = GN_CAPTION_CARD_NS};
 
 struct caption {
     char text[TEXT_BYTES];
@@ -36,6 +27,7 @@ struct gn_captions {
     struct caption captions[GN_CAPTION_KIND_COUNT];
     struct gn_font *font; /* NULL: not yet */
     struct gn_atlas atlas;
+    struct gn_page page; /* that was laid out last */
     struct gn_caption_run run;
     struct gn_caption_quad quads[QUADS_MAX];
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
@@ -76,7 +68,7 @@ void gn_captions_set(struct gn_captions *c, enum gn_caption_kind kind, const cha
         caption->text[length] = '\0';
         c->stale = c->changed = true;
     }
-    if (rows[kind].lasts_ns && length) c->changed = true;
+    if (lasts_ns[kind] && length) c->changed = true;
     caption->set_ns = now_ns;
 }
 
@@ -90,8 +82,8 @@ void gn_captions_set_bar(struct gn_captions *c, double share) {
 /* ---- time ---- */
 
 float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns) {
-    const int64_t left_ns = rows[kind].lasts_ns - age_ns;
-    if (rows[kind].lasts_ns == 0 || left_ns >= GN_CAPTION_FADE_NS) return 1.0f;
+    const int64_t left_ns = lasts_ns[kind] - age_ns;
+    if (lasts_ns[kind] == 0 || left_ns >= GN_CAPTION_FADE_NS) return 1.0f;
     return left_ns > 0 ? (float)left_ns / (float)GN_CAPTION_FADE_NS : 0.0f;
 }
 
@@ -105,8 +97,8 @@ int64_t gn_captions_next_ns(const struct gn_captions *c) {
     for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
         const struct caption *caption = &c->captions[kind];
         const float alpha = alpha_at(caption, kind, c->shown_ns);
-        const int64_t fades_ns = caption->set_ns + rows[kind].lasts_ns - GN_CAPTION_FADE_NS;
-        if (rows[kind].lasts_ns == 0 || alpha <= 0.0f) continue;
+        const int64_t fades_ns = caption->set_ns + lasts_ns[kind] - GN_CAPTION_FADE_NS;
+        if (lasts_ns[kind] == 0 || alpha <= 0.0f) continue;
         if (alpha < 1.0f) return 0;
         if (fades_ns < next_ns) next_ns = fades_ns;
     }
@@ -115,9 +107,10 @@ int64_t gn_captions_next_ns(const struct gn_captions *c) {
 
 /* ---- laying out ---- */
 
-static uint32_t line_px_of(const struct row *row, uint32_t width, uint32_t height) {
-    const uint32_t line = (width < height ? width : height) / row->lines_a_side;
-    return line < LINE_MIN_PX ? LINE_MIN_PX : line > LINE_MAX_PX ? LINE_MAX_PX : line;
+static struct gn_page_size resize_font(void *data, uint32_t line_px) {
+    struct gn_captions *c = data;
+    gn_font_resize(c->font, line_px);
+    return (struct gn_page_size){c->font->line_px, c->font->ascent_px};
 }
 
 static int32_t advance_of(void *data, uint32_t code) {
@@ -138,20 +131,22 @@ static void push_quad(struct gn_captions *c, struct gn_caption_quad quad) {
     c->quads[c->run.quad_count++] = quad;
 }
 
-static int32_t push_text(struct gn_captions *c, enum gn_caption_kind kind, const char *begin,
-                         const char *end, int32_t x, int32_t base) {
+static int32_t push_text(struct gn_captions *c, struct gn_caption_quad like, const char *begin,
+                         const char *end) {
+    const int32_t base = like.y;
     for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;) {
         const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, code);
-        push_quad(c, (struct gn_caption_quad){.x = x + g->left,
-                                              .y = base - g->top,
-                                              .width = g->width_px,
-                                              .height = g->height_px,
-                                              .atlas_x = g->x,
-                                              .atlas_y = g->y,
-                                              .caption = (uint8_t)kind});
-        x += g->advance_px;
+        struct gn_caption_quad quad = like;
+        quad.x += g->left;
+        quad.y = base - g->top;
+        quad.width = g->width_px;
+        quad.height = g->height_px;
+        quad.atlas_x = g->x;
+        quad.atlas_y = g->y;
+        push_quad(c, quad);
+        like.x += g->advance_px;
     }
-    return x;
+    return like.x;
 }
 
 /* A white rectangle, of squares that are a line high at most. */
@@ -168,78 +163,79 @@ static void push_solid(struct gn_captions *c, enum gn_caption_kind kind, struct 
     }
 }
 
-/* The filled part is a third of a line high, the rest a thin line. */
-static void lay_out_bar(struct gn_captions *c, enum gn_caption_kind kind, int32_t x, int32_t y,
-                        int32_t width) {
-    const int32_t line = (int32_t)c->font->line_px, height = line / 3, thin = line / 12 + 1;
-    const int32_t filled = width * (int32_t)(c->bar_percent - 1) / 100;
-    push_solid(c, kind,
-               (struct gn_caption_quad){.x = x, .y = y, .width = filled, .height = height});
+/* The filled part is as high as the bar, the rest a thin line. */
+static void push_bar(struct gn_captions *c, enum gn_caption_kind kind,
+                     const struct gn_page_rect *bar) {
+    const int32_t thin = bar->height / 4 + 1,
+                  filled = bar->width * (int32_t)(c->bar_percent - 1) / 100;
     push_solid(
         c, kind,
-        (struct gn_caption_quad){
-            .x = x + filled, .y = y + height - thin, .width = width - filled, .height = thin});
+        (struct gn_caption_quad){.x = bar->x, .y = bar->y, .width = filled, .height = bar->height});
+    push_solid(c, kind,
+               (struct gn_caption_quad){.x = bar->x + filled,
+                                        .y = bar->y + bar->height - thin,
+                                        .width = bar->width - filled,
+                                        .height = thin});
 }
 
-/* The ground under the lines is half a line wider on each side than they are, and a quarter higher.
- */
-static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
+static void push_line(struct gn_captions *c, enum gn_caption_kind kind,
+                      const struct gn_page_line *line) {
     static const char gap[] = GN_LAYOUT_GAP;
-    const struct row *row = &rows[kind];
-    const char *text = c->captions[kind].text;
-    const uint32_t width = c->run.width_px, height = c->run.height_px;
-    struct gn_layout_line lines[LINES_MAX];
-    if (!gn_font_resize(c->font, line_px_of(row, width, height))) return;
+    struct gn_caption_quad like = {.x = line->rect.x,
+                                   .y = line->rect.y + (int32_t)line->size.ascent_px,
+                                   .caption = (uint8_t)kind,
+                                   .weak = line->is_label};
+    if (c->font->line_px != line->size.line_px) gn_font_resize(c->font, line->size.line_px);
+    like.x = push_text(c, like, line->begin, line->end);
+    if (line->cut) push_text(c, like, gap, gap + sizeof gap - 1);
+}
 
-    /* the margin is a large line: televisions do not show the edges of a picture */
-    const int32_t margin = (int32_t)line_px_of(&rows[GN_CAPTION_MODE], width, height);
-    const int32_t line = (int32_t)c->font->line_px, beside = line / 2, above = line / 4;
-    const int32_t lowest = (int32_t)height - margin - (int32_t)c->bottom_px;
-    const int32_t fit = (lowest - margin - 2 * above) / line;
-    const int32_t most = row->most_lines ? (int32_t)row->most_lines : LINES_MAX;
-    const struct gn_layout_opts opts = {
-        .width_px = (int32_t)width - 2 * (margin + beside),
-        .most_lines = (uint32_t)(fit < 1      ? 1
-                                 : fit < most ? fit
-                                              : most),
-        .wraps = row->wraps,
-        .advance_px = advance_of,
-        .data = c,
-    };
-    const uint32_t count = gn_layout_build(&opts, text, text + strlen(text), lines);
-    int32_t widest = 0;
-    for (uint32_t i = 0; i < count; i++)
-        if (lines[i].width_px > widest) widest = lines[i].width_px;
-    if (widest == 0) return;
-
-    const bool has_bar = kind == GN_CAPTION_ERROR && c->bar_percent > 0;
-    if (has_bar) widest = opts.width_px;
-    const int32_t tall = (int32_t)count * line + 2 * above + (has_bar ? line * 2 / 3 : 0);
-    const int32_t y = row->at_top ? margin : lowest - tall;
-    push_quad(c, (struct gn_caption_quad){.x = margin,
-                                          .y = y,
-                                          .width = widest + 2 * beside,
-                                          .height = tall,
+static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
+    const bool has_bar = kind == GN_CAPTION_TEXT && c->bar_percent > 0;
+    const struct gn_page_font font = {.resize = resize_font, .advance_px = advance_of, .data = c};
+    const struct gn_page_style *style = &gn_page_styles[kind];
+    struct gn_page *page = &c->page;
+    gn_page_build(style, &font, c->captions[kind].text, c->run.width_px, c->run.height_px,
+                  style->at_top ? 0 : c->bottom_px, has_bar, page);
+    if (page->ground.width == 0) return;
+    const struct gn_page_rect *ground = &page->ground;
+    push_quad(c, (struct gn_caption_quad){.x = ground->x,
+                                          .y = ground->y,
+                                          .width = ground->width,
+                                          .height = ground->height,
                                           .caption = (uint8_t)kind,
                                           .ground = true});
-    for (uint32_t i = 0; i < count; i++) {
-        const int32_t base = y + above + (int32_t)(i * c->font->line_px + c->font->ascent_px);
-        const int32_t end = push_text(c, kind, lines[i].begin, lines[i].end, margin + beside, base);
-        if (lines[i].cut) push_text(c, kind, gap, gap + sizeof gap - 1, end, base);
-    }
-    if (has_bar)
-        lay_out_bar(c, kind, margin + beside, y + above + (int32_t)count * line + line / 6, widest);
-    if (!row->at_top) c->bottom_px += (uint32_t)(tall + above);
+    for (uint32_t i = 0; i < page->count; i++) push_line(c, kind, &page->lines[i]);
+    if (has_bar) push_bar(c, kind, &page->bar);
+    if (!style->at_top) c->bottom_px += (uint32_t)ground->height + c->font->line_px * 7 / 20;
 }
 
-/* From below: the error, above it the mode, which is drawn last. */
+/* A white square on a ground that is twice as wide. */
+static void lay_out_mark(struct gn_captions *c) {
+    const uint32_t width = c->run.width_px, height = c->run.height_px;
+    const int32_t side = (int32_t)((width < height ? width : height) / MARK_SHARE + 1),
+                  x = (int32_t)(width - width / 20) - 2 * side, y = (int32_t)(height / 20 + 1);
+    gn_font_resize(c->font, 3 * (uint32_t)side); /* a solid is half a line high */
+    push_quad(c, (struct gn_caption_quad){.x = x,
+                                          .y = y,
+                                          .width = 2 * side,
+                                          .height = 2 * side,
+                                          .caption = GN_CAPTION_MARK,
+                                          .ground = true});
+    push_solid(c, GN_CAPTION_MARK,
+               (struct gn_caption_quad){
+                   .x = x + side / 2, .y = y + side / 2, .width = side, .height = side});
+}
+
+/* From below: the text, above it the card and the mode, which is drawn last. */
 static void lay_out_all(struct gn_captions *c) {
-    static const enum gn_caption_kind order[GN_CAPTION_KIND_COUNT] = {
-        GN_CAPTION_ERROR, GN_CAPTION_INFO, GN_CAPTION_MODE};
+    static const enum gn_caption_kind order[] = {GN_CAPTION_TEXT, GN_CAPTION_CARD, GN_CAPTION_INFO,
+                                                 GN_CAPTION_MODE};
     c->bottom_px = 0;
     c->run.quad_count = 0;
-    for (int i = 0; i < GN_CAPTION_KIND_COUNT; i++)
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++)
         if (c->captions[order[i]].text[0]) lay_out(c, order[i]);
+    if (c->captions[GN_CAPTION_MARK].text[0]) lay_out_mark(c);
 }
 
 const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t width_px,

@@ -7,7 +7,8 @@
 #include "core/warn.h"
 
 #define GN_CAPTION_MODE_NS INT64_C(2000000000) /* how long a mode's name is shown */
-#define GN_CAPTION_FADE_NS INT64_C(300000000)  /* the part of it in which it fades */
+#define GN_CAPTION_CARD_NS INT64_C(30000000000)
+#define GN_CAPTION_FADE_NS INT64_C(400000000) /* the part of either in which it fades */
 
 struct gn_captions;
 struct gn_captions_opts { /* zero means the default written beside */
@@ -22,13 +23,13 @@ void gn_captions_destroy(struct gn_captions *captions); /* NULL is legal */
 /* Opens the font now. False: the file in opts cannot be used, and the built-in font is. */
 bool gn_captions_open_font(struct gn_captions *captions, struct gn_err *err);
 
-/* Replaces the text of that kind (copied, cut at 2 kB); NULL or "" removes it. Equal text: a mode's
- * time starts again, else nothing changes. */
+/* Replaces the text of that kind (copied, cut at 2 kB); NULL or "" removes it. Equal text: its
+ * time starts again, if it has one, else nothing changes. */
 void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns);
-/* A bar under the error message, filled to that share, 0 to 1; below 0, as at first: no bar. */
+/* A bar under GN_CAPTION_TEXT, filled to that share, 0 to 1; below 0, as at first: no bar. */
 void gn_captions_set_bar(struct gn_captions *captions, double share);
-/* Opacity of a caption that was set that long ago: 1, fading at the end of a mode's time, then 0.
+/* Opacity of a caption that was set that long ago: 1, fading at the end of its time, then 0.
  * Pure. */
 float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);
 

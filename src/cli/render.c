@@ -182,7 +182,7 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
     if (ok && o->run.caption) { /* it stays: one layout for all frames */
         const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
         r.captions = gn_captions_create(&opts);
-        gn_captions_set(r.captions, GN_CAPTION_ERROR, o->run.caption, 0);
+        gn_captions_set(r.captions, GN_CAPTION_TEXT, o->run.caption, 0);
         r.stage.shown.opts.cover.captions = gn_captions_run(
             r.captions, (uint32_t)o->render.size.width_px, (uint32_t)o->render.size.height_px, 0);
     }

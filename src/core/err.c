@@ -8,6 +8,7 @@
 static void set_error(struct gn_err *err, enum gn_exit status, const char *format, va_list args) {
     if (!err) return;
     gn_text_vformat(err->text, sizeof err->text, format, args);
+    err->shown[0] = '\0';
     err->status = status;
 }
 

@@ -17,6 +17,8 @@ enum gn_exit {
 
 struct gn_err {
     char text[512];      /* one line, no newline at its end, cut at a whole UTF-8 character */
+    char shown[192];     /* what a screen in a public place says of it, set after the failure: no
+                            paths, no names of techniques, no texts of the system; "": nothing */
     enum gn_exit status; /* GN_EXIT_RUNTIME unless gn_fail_usage() made it */
 };
 

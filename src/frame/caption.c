@@ -48,7 +48,8 @@ static void add_quads(struct gn_frame *frame, const struct gn_caption_run *run, 
         struct gn_caption_quad q = run->quads[i];
         q.x += x;
         q.y += y;
-        if (run->alpha[q.caption] > 0.0f) add_rectangle(frame, &q, run->alpha[q.caption]);
+        const float alpha = run->alpha[q.caption] * (q.weak ? GN_CAPTION_WEAK : 1.0f);
+        if (alpha > 0.0f) add_rectangle(frame, &q, alpha);
     }
     *seen = (struct bounds){seen->left + x, seen->top + y, seen->right + x, seen->bottom + y};
 }

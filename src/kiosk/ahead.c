@@ -140,7 +140,7 @@ static bool work_on_others(struct gn_show_screen *s, int64_t until_ns) {
     }
     for (int i = 1; i < s->show->modes.count; i++) {
         const int mode = (shown + i) % s->show->modes.count;
-        if (s->looks.made >> mode & 1) continue;
+        if ((s->looks.made | s->rules.passed_by) >> mode & 1) continue;
         if (warm_mode(s, &s->looks, &s->stage.shown, mode, false))
             drop_programs(s);
         else if (gn_loop_now_ns(s->show->loop) < until_ns)

@@ -1,9 +1,11 @@
 /* Texts on the picture: captions of changes, the information page, and a problem of the
  * configuration as long as it lasts. */
 #include <stdio.h>
+#include <string.h>
 
 #include "core/clock.h"
 #include "core/file.h"
+#include "core/text.h"
 #include "kiosk/private.h"
 
 void gn_show_open_captions(struct gn_show_screen *s) {
@@ -13,20 +15,36 @@ void gn_show_open_captions(struct gn_show_screen *s) {
     s->text.captions = gn_captions_create(&opts);
     s->text.view = (struct gn_kiosk_view){0};
     s->text.since_ns = 0;
+    s->text.card[0] = '\0';
     struct gn_err why = {0};
     if (!opts.font || gn_captions_open_font(s->text.captions, &why)) return;
     char text[sizeof why.text + 64];
     gn_fail_prefix(&why, "%s", gn_settings_label(s->stage.settings, render.font));
     snprintf(text, sizeof text, "%s (texts are shown in the built-in font)", why.text);
-    gn_show_report_error(s->show, GN_PROBLEM_CONFIG, text);
+    gn_show_report_error(s->show, GN_PROBLEM_FONT, text);
 }
 
 const char *gn_show_path_name(const char *path) {
     return path ? gn_file_name(path) : "default scene";
 }
 
-static const char *scene_name(const struct gn_show_screen *s, int scene) {
-    return gn_show_path_name(s->show->scenes.paths[scene]);
+/* As people call it: a file's name without what follows the last dot. */
+static const char *write_title(const char *path, char out[120]) {
+    gn_text_format(out, 120, "%s", path ? gn_file_name(path) : "Sundial");
+    char *dot = strrchr(out, '.');
+    if (dot && dot > out) *dot = '\0';
+    return out;
+}
+
+/* What config_error has; false: nothing. */
+static bool find_lasting(const struct gn_show *s, const struct gn_problem_words **words,
+                         const char **shown) {
+    const struct gn_options *o = s->config.options;
+    const bool is_own = o->config_error == s->config.error;
+    const char *text = is_own ? s->config.shown : o->config_shown;
+    *words = &gn_problem_words[is_own ? s->config.kind : GN_PROBLEM_CONFIG];
+    *shown = text ? text : "";
+    return o->config_error;
 }
 
 /* ---- loading ---- */
@@ -40,11 +58,11 @@ static bool is_loading(const struct gn_show_screen *s, int64_t now_ns) {
            now_ns - s->show->scenes.load_begun_ns > PATIENCE_NS;
 }
 
-static const char *loading_name(const struct gn_show_screen *s) {
+static const char *loading_path(const struct gn_show_screen *s) {
     const int number = gn_loader_number(s->show->scenes.loader);
     if (s->show->reload.options && (s->show->reload.first || number == GN_SHOW_RELOAD))
-        return gn_show_path_name(s->show->reload.options->settings->scene.path);
-    return number >= 0 ? scene_name(s, number) : "";
+        return s->show->reload.options->settings->scene.path;
+    return s->show->scenes.paths[number >= 0 ? number : s->scene];
 }
 
 /* -1: no bar. */
@@ -58,34 +76,56 @@ bool gn_show_bar_moves(const struct gn_show_screen *s) {
     return progress_percent(s, gn_loop_now_ns(s->show->loop)) != s->text.bar;
 }
 
+static const char *mode_text(const struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                             char *out, size_t size) {
+    const struct gn_show_modes *modes = &s->show->modes;
+    const char *title = modes->titles[view->caption_mode];
+    const bool waits = view->mode != view->caption_mode, /* the picture is not of that yet */
+        only = modes->count == 1 && !s->rules.names_first && !s->rules.replays;
+    if (s->split.on)
+        snprintf(out, size, "%s | %s%s", modes->titles[s->split.left],
+                 s->truth.on ? gn_techniques[GN_TECHNIQUE_TRUTH].title : title, waits ? " .." : "");
+    else
+        snprintf(out, size, "%s%s", title, waits ? " .." : only ? ": the only mode" : "");
+    return out;
+}
+
 /* NULL: the change has no caption. */
 static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_view *view) {
     struct gn_show_text *t = &s->text;
-    const struct gn_show_modes *modes = &s->show->modes;
-    const char *name = modes->names[view->caption_mode];
-    const bool waits = view->mode != view->caption_mode, /* the picture is not of that yet */
-        only = modes->count == 1 && !s->rules.names_first && !s->rules.replays;
+    char title[120];
     switch (view->caption) {
-    case GN_KIOSK_CAPTION_MODE:
-        if (s->split.on)
-            snprintf(t->modes, sizeof t->modes, "%.50s | %.50s%s", modes->names[s->split.left],
-                     s->truth.on ? "truth" : name, waits ? " .." : "");
-        else
-            snprintf(t->modes, sizeof t->modes, "%.80s%s", name,
-                     waits  ? " .."
-                     : only ? ": the only mode"
-                            : "");
-        return t->modes;
+    case GN_KIOSK_CAPTION_MODE: return mode_text(s, view, t->change, sizeof t->change);
     case GN_KIOSK_CAPTION_SCENE:
-        snprintf(t->modes, sizeof t->modes, "%.100s%s", scene_name(s, view->caption_scene),
+        snprintf(t->change, sizeof t->change, "%s%s",
+                 write_title(s->show->scenes.paths[view->caption_scene], title),
                  view->scene != view->caption_scene ? " .." : "");
-        return t->modes;
+        return t->change;
     case GN_KIOSK_CAPTION_CAMERA:
         return s->stage.scene->cameras[s->stage.shown.opts.view.camera].name;
     case GN_KIOSK_CAPTION_NOTE: return s->viewer.note;
-    case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "pause" : NULL;
+    case GN_KIOSK_CAPTION_PROBLEM: {
+        const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
+        return kind < GN_PROBLEM_COUNT ? gn_problem_words[kind].title : NULL;
+    }
+    case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "Paused" : NULL;
     default: return NULL;
     }
+}
+
+/* What lasts: a card of it for a while, then a mark. */
+static void write_card(struct gn_show_screen *s, int64_t now_ns) {
+    struct gn_show_text *t = &s->text;
+    const struct gn_problem_words *words;
+    const char *shown;
+    char card[sizeof t->card] = "";
+    if (find_lasting(s->show, &words, &shown))
+        gn_text_add(card, sizeof card, "%s\n%s%s%s", words->title, shown, *shown ? "\n" : "",
+                    words->advice);
+    if (strcmp(card, t->card) == 0) return;
+    memcpy(t->card, card, sizeof card);
+    gn_captions_set(t->captions, GN_CAPTION_CARD, card, now_ns);
+    gn_captions_set(t->captions, GN_CAPTION_MARK, card[0] ? "!" : NULL, now_ns);
 }
 
 void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view *view,
@@ -95,17 +135,13 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     const bool on_side = f->output.turn_deg / 90 % 2;
 
     /* captions of changes: a text is set only when it changes */
-    const char *error = s->show->config.options->config_error;
-    if (!error && view->caption == GN_KIOSK_CAPTION_PROBLEM)
-        error = gn_problem_last(&s->show->problems);
-    char loading[200];
-    const bool loads = !error && is_loading(s, now_ns);
-    if (loads) {
-        snprintf(loading, sizeof loading, "loading %.150s ..", loading_name(s));
-        error = loading;
-    }
+    char loading[200] = "", title[120];
+    const bool loads = is_loading(s, now_ns);
+    if (loads)
+        snprintf(loading, sizeof loading, "Loading %s ..", write_title(loading_path(s), title));
     t->bar = progress_percent(s, now_ns);
-    gn_captions_set(t->captions, GN_CAPTION_ERROR, error, now_ns);
+    gn_captions_set(t->captions, GN_CAPTION_TEXT, loading, now_ns);
+    write_card(s, now_ns);
     gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
     if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
         t->view = *view;
@@ -116,15 +152,18 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     }
 
     /* the information page, or the help page over it */
-    const struct gn_info info = {
-        .scene = scene_name(s, view->scene),
-        .mode = s->show->modes.names[view->mode],
+    struct gn_info info = {
+        .scene = write_title(s->show->scenes.paths[view->scene], title),
+        .mode = s->show->modes.titles[view->mode],
         .missing = s->stage.scene ? s->stage.scene->missing : NULL,
         .screen = &s->stage.display.screen,
         .caps = gn_gl_caps(s->stage.gl),
         .uptime_ns = now_ns - s->show->counts.begun_ns,
         .board = gn_parts_board(&s->show->parts),
     };
+    const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
+    if (!find_lasting(s->show, &info.problem, &info.shown))
+        info.problem = kind < GN_PROBLEM_COUNT ? &gn_problem_words[kind] : NULL;
     if (t->help[0] || !view->info) {
         t->page.made = false;
         gn_captions_set(t->captions, GN_CAPTION_INFO, t->help, now_ns);

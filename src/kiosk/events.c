@@ -10,6 +10,8 @@ void gn_show_report_error(struct gn_show *s, enum gn_problem kind, const char *t
     if (s->config.options->config_error) return; /* the first one is likely the cause */
     snprintf(s->config.error, sizeof s->config.error, "%s", text);
     s->config.options->config_error = s->config.error;
+    s->config.kind = kind;
+    s->config.shown[0] = '\0';
     s->screen.changed = true;
 }
 

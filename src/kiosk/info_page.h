@@ -1,17 +1,20 @@
-/* The text of the information page (GN_CAPTION_INFO): version, mode, screen, GPU, addresses. */
+/* The text of the information page (GN_CAPTION_INFO): a title, then rows of a label and a value. */
 #ifndef GN_KIOSK_INFO_PAGE_H
 #define GN_KIOSK_INFO_PAGE_H
 
 #include "display/display.h"
 #include "frame/caps.h"
+#include "kiosk/problems.h"
 
 struct gn_info {                        /* a field that is NULL or zero gets no line */
     const char *scene, *mode, *missing; /* missing: what the scene is shown without */
     const struct gn_screen *screen;
     const struct gn_caps *caps;
-    int64_t uptime_ns; /* of this program */
-    const char *board; /* what it suffers from */
-    const char *root;  /* a prefix of /sys, for tests; else "" or NULL */
+    int64_t uptime_ns;                      /* of this program */
+    const struct gn_problem_words *problem; /* NULL: it runs well */
+    const char *shown;                      /* what is to be said of that; NULL or "": no more */
+    const char *board;                      /* what it suffers from */
+    const char *root;                       /* a prefix of /sys, for tests; else "" or NULL */
 };
 struct gn_info_page { /* zeroed: no text yet */
     char text[1536];

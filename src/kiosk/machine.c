@@ -55,14 +55,15 @@ static void enter_clips(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, 
 
 /* ---- what is wanted ---- */
 
-/* The next mode that has not failed; if all have, the same one. */
+/* The next mode that is not passed by and has not failed; if there is none, the same one. */
 static void want_mode(const struct gn_kiosk_rules *rules, struct gn_kiosk *s, int by) {
     const int count = modes_of(rules);
     int mode = s->wanted.mode;
     for (int i = 0; i < count; i++) {
         mode = (mode + by + count) % count;
         const int own = rules->own_scene[mode];
-        const bool bad = s->bad_modes >> mode & 1 || (own > 0 && s->bad_scenes >> (own - 1) & 1);
+        const bool bad = (s->bad_modes | rules->passed_by) >> mode & 1 ||
+                         (own > 0 && s->bad_scenes >> (own - 1) & 1);
         if (!bad) break;
     }
     s->wanted.mode = mode;

@@ -19,6 +19,7 @@ struct gn_kiosk_rules {                    /* zero means the default written bes
     uint8_t own_scene[GN_KIOSK_MODES_MAX]; /* 1 + the scene that the mode itself names; 0: none */
     uint32_t own_camera; /* bits 1 << mode: the mode names a camera, which is used on entering */
     uint32_t restarts;   /* bits 1 << mode: entering it its clips begin */
+    uint32_t passed_by;  /* bits 1 << mode: next and prev do not stop there */
     bool replays;        /* next and prev enter the mode that is shown, if it is the only one */
     enum gn_idle idle;
     int64_t idle_after_ns; /* 0: never */

@@ -1,6 +1,8 @@
 /* Modes of the kiosk: the list, the scenes, and entering one. */
+#include <stdio.h>
 #include <string.h>
 
+#include "core/text.h"
 #include "kiosk/private.h"
 #include "shadow/planar.h"
 
@@ -8,8 +10,10 @@ _Static_assert((int)GN_TECHNIQUE_COUNT < GN_KIOSK_MODES_MAX, "every technique is
 
 /* ---- the list ---- */
 
-static void add_mode(struct gn_show_modes *modes, const char *name, int settings) {
+static void add_mode(struct gn_show_modes *modes, const char *name, const char *title,
+                     int settings) {
     if (modes->count == GN_KIOSK_MODES_MAX) return;
+    gn_text_format(modes->titles[modes->count], sizeof modes->titles[0], "%s", title);
     modes->settings[modes->count] = settings;
     modes->names[modes->count++] = name;
 }
@@ -25,24 +29,47 @@ static int mode_or_base(const struct gn_show_modes *modes, const char *name) {
     return named >= 0 ? named : modes->base >= 0 ? modes->base : 0;
 }
 
+static bool is_window(const struct gn_show *s, const struct gn_options *o) {
+    const char *backend = s->config.place ? s->config.place->backend : o->all[0].display.backend;
+    return strcmp(backend, "window") == 0;
+}
+
+/* Whether a kiosk goes through the mode of a technique. One is as good as that of the options if it
+ * has the same title. */
+static bool is_offered(const struct gn_options *o, enum gn_technique technique) {
+    const struct gn_technique_row *row = &gn_techniques[technique];
+    const uint8_t base = o->all[0].render.shadow.items[0];
+    return technique == (enum gn_technique)base ||
+           (row->offered && strcmp(row->title, gn_techniques[base].title) != 0);
+}
+
+static void add_technique(struct gn_show *s, enum gn_technique technique, bool is_base) {
+    const struct gn_options *o = s->config.options;
+    const struct gn_technique_row *row = &gn_techniques[technique];
+    const bool window = is_window(s, o), all = window || o->all[0].run.mode ||
+                                               (o->buttons && gn_buttons_name_mode(o->buttons));
+    char title[80];
+    snprintf(title, sizeof title, window ? "%s - %s" : "%s", row->title, row->name);
+    if (!all && !is_offered(o, technique)) s->modes.passed_by |= 1u << s->modes.count;
+    if (is_base) s->modes.base = s->modes.count;
+    add_mode(&s->modes, row->name, title, is_base ? 0 : 1 + (int)technique);
+}
+
 /* Without modes in the file each technique is a mode, the best first. The technique of the options
  * gets no settings of its own, so that lights keep the technique that the scene names; if it comes
  * from the command line it is the only mode. */
 static void list_techniques(struct gn_show *s) {
     enum gn_technique order[GN_TECHNIQUE_COUNT];
     const struct gn_settings *o = &s->config.options->all[0];
-    struct gn_show_modes *modes = &s->modes;
     const bool only = gn_settings_from(o, render.shadow) == GN_SOURCE_FLAG;
     gn_techniques_by_rank(order);
     for (int i = 0; i < GN_TECHNIQUE_COUNT; i++) {
-        const enum gn_technique technique = order[i];
-        const bool is_base = technique == (enum gn_technique)o->render.shadow.items[0];
+        const bool is_base = order[i] == (enum gn_technique)o->render.shadow.items[0];
         if (only && !is_base) continue;
-        if (gn_techniques[technique].on_plane && !is_base &&
+        if (gn_techniques[order[i]].on_plane && !is_base &&
             !gn_planar_has_plane(s->screen.stage.scene))
             continue;
-        if (is_base) modes->base = modes->count;
-        add_mode(modes, gn_techniques[technique].name, is_base ? 0 : 1 + (int)technique);
+        add_technique(s, order[i], is_base);
     }
 }
 
@@ -74,8 +101,7 @@ void gn_show_take_rules(struct gn_show_screen *s) {
 }
 
 bool gn_show_offers(const struct gn_show *s, const struct gn_options *o) {
-    const char *backend = s->config.place ? s->config.place->backend : o->all[0].display.backend;
-    return gn_options_leave_modes(o) && strcmp(backend, "window") != 0;
+    return gn_options_leave_modes(o) && !is_window(s, o);
 }
 
 /* As if kiosk.ini had a section for each. A second one, of the turntable, takes the place of the
@@ -95,7 +121,7 @@ static void list_offers(struct gn_show *s, int scene) {
     modes->base = modes->offers.first;
     for (int i = 0; i < modes->offers.count; i++) {
         const struct gn_offer *offer = &modes->offers.items[i];
-        add_mode(modes, offer->name, offer->turns ? 1 : 0);
+        add_mode(modes, offer->name, gn_offer_title(offer), offer->turns ? 1 : 0);
         if (!offer->turns) continue;
         const double rate = o->all[0].scene.turntable_deg_s == 0.0 ? GN_OFFER_TURNTABLE_DEG_S : 0.0;
         o->all[1] = o->all[0];
@@ -125,7 +151,8 @@ void gn_show_list_modes(struct gn_show *s, int scene) {
     s->modes = (struct gn_show_modes){.base = -1};
     s->scenes.count = s->scenes.listed = list->count > 0 ? list->count : 1;
     for (int i = 0; i < s->scenes.count; i++) s->scenes.paths[i] = list->paths[i];
-    for (int i = 0; i < o->mode_count; i++) add_mode(&s->modes, o->modes[i].name, 1 + i);
+    for (int i = 0; i < o->mode_count; i++)
+        add_mode(&s->modes, o->modes[i].name, o->modes[i].name, 1 + i);
     if (gn_show_offers(s, o))
         list_offers(s, scene);
     else if (o->mode_count == 0)
@@ -133,7 +160,8 @@ void gn_show_list_modes(struct gn_show *s, int scene) {
     s->modes.first = s->modes.offered ? first_offer(s) : mode_or_base(&s->modes, o->settings->mode);
     s->screen.rules = (struct gn_kiosk_rules){.mode_count = s->modes.count,
                                               .scene_count = s->scenes.listed,
-                                              .first_mode = mode_or_base(&s->modes, o->home)};
+                                              .first_mode = mode_or_base(&s->modes, o->home),
+                                              .passed_by = s->modes.passed_by};
     if (s->modes.offered) set_offer_rules(&s->modes.offers, &s->screen.rules);
     gn_show_take_rules(&s->screen);
     for (int i = 0; i < s->modes.count && !s->modes.offered; i++) {

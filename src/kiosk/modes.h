@@ -10,13 +10,17 @@
 struct gn_show;
 struct gn_show_screen;
 
-/* Modes: those of the INI file, else what the scene offers, else the techniques. */
+/* Modes: those of the INI file, else what the scene offers, else the techniques. Of these a kiosk
+ * goes through soft, sharp and no shadows, unless an option or a button names one; a window through
+ * all. */
 struct gn_show_modes {
     int count, first;
     const char *names[GN_KIOSK_MODES_MAX];
-    int settings[GN_KIOSK_MODES_MAX]; /* places in options->all */
-    int base;                         /* the one without settings of its own; -1: none */
-    bool offered;                     /* they are these: */
+    char titles[GN_KIOSK_MODES_MAX][64]; /* the same on the screen */
+    uint32_t passed_by;                  /* as in gn_kiosk_rules */
+    int settings[GN_KIOSK_MODES_MAX];    /* places in options->all */
+    int base;                            /* the one without settings of its own; -1: none */
+    bool offered;                        /* they are these: */
     struct gn_offers offers;
 };
 /* Of one scene, for each mode: how it is drawn, and about its programs. */

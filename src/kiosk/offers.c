@@ -152,6 +152,11 @@ void gn_offers_build(const struct gn_offers_of *of, struct gn_offers *out) {
     out->home = out->first;
 }
 
+const char *gn_offer_title(const struct gn_offer *offer) {
+    if (strcmp(offer->name, "turning") == 0) return "Turning";
+    return strcmp(offer->name, "still") == 0 ? "Standing still" : offer->name;
+}
+
 void gn_offer_apply(const struct gn_offer *offer, const struct gn_settings *settings,
                     const struct gn_scene *scene, struct gn_stage_look *look) {
     struct gn_frame_view_opts *view = &look->frame_opts.view;

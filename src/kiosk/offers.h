@@ -40,6 +40,8 @@ struct gn_offers {
 #define GN_OFFER_TURNTABLE_DEG_S 6.0
 
 void gn_offers_build(const struct gn_offers_of *of, struct gn_offers *out);
+/* The name of one on the screen. */
+const char *gn_offer_title(const struct gn_offer *offer);
 /* Puts a offer into the look of a scene, which need not be the one that it was made of. */
 void gn_offer_apply(const struct gn_offer *offer, const struct gn_settings *settings,
                     const struct gn_scene *scene, struct gn_stage_look *look);

@@ -29,6 +29,8 @@ struct gn_show_config {
     char past[PATH_MAX];         /* the one before; "": the options' scenes */
     struct gn_show_place *place; /* NULL: the options say where */
     char error[512];             /* of start or the last reload; options->config_error */
+    char shown[192];             /* what the screen says of it, */
+    enum gn_problem kind;        /* beside the words of that kind */
 };
 struct gn_show_buttons {
     struct gn_buttons map;

@@ -4,10 +4,13 @@
 
 /* The order matters: a reload ends those from CONFIG to SCENE. */
 enum gn_problem {
-    GN_PROBLEM_START,      /* of this start, for good */
-    GN_PROBLEM_CONTROL,    /* no control socket; until it opens */
-    GN_PROBLEM_TRIAL,      /* what was new is not shown; until something new is */
-    GN_PROBLEM_CONFIG,     /* until a reload succeeds */
+    GN_PROBLEM_START,   /* of this start, for good */
+    GN_PROBLEM_CONTROL, /* no control socket; until it opens */
+    GN_PROBLEM_TRIAL,   /* what was new is not shown; until something new is */
+    GN_PROBLEM_CONFIG,  /* of kiosk.ini; until a reload succeeds, like the next three */
+    GN_PROBLEM_FIRST,   /* another scene is shown than the first */
+    GN_PROBLEM_FONT,
+    GN_PROBLEM_INPUT,      /* no buttons */
     GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is */
     GN_PROBLEM_MODE,       /* until that mode is shown, or a reload */
     GN_PROBLEM_SCENE,      /* likewise */
@@ -16,6 +19,7 @@ enum gn_problem {
     GN_PROBLEM_STATE,      /* until it is saved */
     GN_PROBLEM_TELEVISION, /* until it answers */
     GN_PROBLEM_RANGE,      /* until a connector has it, or none is asked for */
+    GN_PROBLEM_GRAPHICS,   /* GL does not work; until it does */
     GN_PROBLEM_VOLTAGE,    /* of the board; until it was well for a minute, like the next two */
     GN_PROBLEM_THROTTLED,
     GN_PROBLEM_CMA,
@@ -32,5 +36,15 @@ void gn_problem_report(struct gn_problems *problems, enum gn_problem kind, const
 void gn_problem_cure(struct gn_problems *problems, enum gn_problem kind);
 /* The last that is not cured, or NULL. */
 const char *gn_problem_last(const struct gn_problems *problems);
+/* The kind of that; GN_PROBLEM_COUNT: none. */
+enum gn_problem gn_problem_last_kind(const struct gn_problems *problems);
+
+/* What a screen in a public place says: no paths, no names of techniques, no texts of the system.
+ * Sentences, without markup. */
+struct gn_problem_words {
+    const char *title;
+    const char *advice; /* what to do, one sentence */
+};
+extern const struct gn_problem_words gn_problem_words[GN_PROBLEM_COUNT];
 
 #endif

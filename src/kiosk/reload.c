@@ -54,7 +54,7 @@ static bool take_reload(struct gn_show *s, const struct gn_show_reload *r, struc
     gn_show_open_captions(screen);
     struct gn_err why = {0};
     if (!gn_show_open_input(s, &why))
-        gn_problem_report(&s->problems, GN_PROBLEM_CONFIG,
+        gn_problem_report(&s->problems, GN_PROBLEM_INPUT,
                           why.text); /* not fatal: the kiosk runs without buttons */
     screen->kiosk.blanked = before.blanked;
     screen->kiosk.asleep = before.asleep;
@@ -93,6 +93,8 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     }
     snprintf(s->config.error, sizeof s->config.error, "%s", why->text);
     s->config.options->config_error = s->config.error;
+    s->config.kind = why->status == GN_EXIT_USAGE ? GN_PROBLEM_CONFIG : GN_PROBLEM_FIRST;
+    snprintf(s->config.shown, sizeof s->config.shown, "%s", why->shown);
     s->screen.changed = true;
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
@@ -144,7 +146,11 @@ static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const ch
         if (cause == GN_RELOAD_SEEN && !own) s->reload.scene = same_scene(s, options);
         return;
     }
-    if (options) gn_fail_usage(&why, "%s", options->config_error);
+    if (options) {
+        gn_fail_usage(&why, "%s", options->config_error);
+        if (options->config_shown)
+            snprintf(why.shown, sizeof why.shown, "%s", options->config_shown);
+    }
     gn_show_drop_options(options);
     /* what is wrong with kiosk.ini stays on the screen, whoever found it: a change that is seen
      * counts as a reload that was asked for */
@@ -232,7 +238,7 @@ static bool finish_reload(struct gn_show *s, struct gn_err *err) {
     *r = (struct gn_show_reload){0};
     const bool ok = take_reload(s, &taken, err);
     if (ok && taken.first) s->counts.frames = 0;
-    if (ok && taken.why[0]) gn_show_report_error(s, GN_PROBLEM_CONFIG, taken.why);
+    if (ok && taken.why[0]) gn_show_report_error(s, GN_PROBLEM_FIRST, taken.why);
     gn_show_answer_reload(s, ok ? NULL : err);
     gn_parts_loaded(&s->parts, GN_PART_LOAD_OPTIONS);
     return ok;
@@ -304,6 +310,6 @@ bool gn_show_load_first(struct gn_show *s, struct gn_err *err) {
     loaded->occluder = NULL;
     loaded->detailer = NULL;
     gn_show_drop_reload(s);
-    if (ok && missing[0]) gn_show_report_error(s, GN_PROBLEM_CONFIG, missing);
+    if (ok && missing[0]) gn_show_report_error(s, GN_PROBLEM_FIRST, missing);
     return ok;
 }

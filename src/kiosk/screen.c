@@ -107,14 +107,15 @@ void gn_show_stop_gl(struct gn_show_screen *s) {
     gn_stage_stop_gl(&s->stage);
 }
 
-/* If GL fails the kiosk shows the reason as a text and keeps running. */
+/* If GL fails the kiosk shows that as a text and keeps running; the status has the reason. */
 static bool show_failure(struct gn_show_screen *s, struct gn_err *err) {
     if (gn_stop_asked()) return false;
     gn_show_stop_gl(s);
-    if (!gn_display_show_message(&s->stage.display, err->text, gn_loop_now_ns(s->show->loop)))
+    if (!gn_display_show_message(&s->stage.display, gn_problem_words[GN_PROBLEM_GRAPHICS].title,
+                                 gn_loop_now_ns(s->show->loop)))
         return false;
     s->context.message = true;
-    fprintf(stderr, "gnomon: warning: %s\n", err->text);
+    gn_problem_report(&s->show->problems, GN_PROBLEM_GRAPHICS, err->text);
     *err = (struct gn_err){0};
     return true;
 }
@@ -161,6 +162,7 @@ bool gn_show_keep_context(struct gn_show_screen *s, struct gn_err *err) {
     if (!gn_stage_start_gl(&s->stage, s->show->warnings, err)) return show_failure(s, err);
     if (s->context.message)
         gn_display_show_message(&s->stage.display, NULL, gn_loop_now_ns(s->show->loop));
+    gn_problem_cure(&s->show->problems, GN_PROBLEM_GRAPHICS);
     s->context.message = false;
     if (screen->may_draw) return true;
 

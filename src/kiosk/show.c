@@ -94,7 +94,7 @@ static bool open_all(struct gn_show *s, const struct gn_options *options, struct
     if (!gn_show_open_display(&s->screen, err)) return false;
     if (!gn_show_open_input(s, err)) { /* a script is of the command line */
         if (s->screen.stage.settings->run.input_script) return false;
-        gn_show_report_error(s, GN_PROBLEM_CONFIG, err->text);
+        gn_show_report_error(s, GN_PROBLEM_INPUT, err->text);
         *err = (struct gn_err){0};
     }
     gn_parts_open(&s->parts);

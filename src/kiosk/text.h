@@ -12,10 +12,11 @@ struct gn_show_text {
     struct gn_captions *captions;
     struct gn_info_page page;
     int bar;                   /* percent of a load, as the last frame showed it; -1: none */
+    char card[400];            /* of the problem that lasts; "": none */
     char help[1536];           /* in place of the information page; "": none */
     struct gn_kiosk_view view; /* that the last caption is about, */
     int64_t since_ns;          /* and since when */
-    char modes[120];           /* the caption of a mode or a scene */
+    char change[160];          /* the caption of a mode or a scene */
 };
 
 /* With the font of the settings; called again after a reload. A font that cannot be used is an

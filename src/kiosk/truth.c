@@ -1,5 +1,7 @@
 #include "kiosk/truth.h"
 
+#include <stdio.h>
+
 #include "core/clock.h"
 #include "kiosk/private.h"
 #include "stage/rays.h"
@@ -15,7 +17,7 @@ static void pause(struct gn_show_screen *s) {
 static void tell(struct gn_show_screen *s, int percent) {
     s->truth.percent = percent;
     s->truth.told_ns = gn_loop_now_ns(s->show->loop);
-    gn_show_note(s, "truth %d %%", percent);
+    gn_show_note(s, "Ray tracing %d %%", percent);
 }
 
 void gn_truth_drop(struct gn_show_screen *s) {
@@ -36,7 +38,7 @@ void gn_truth_end(struct gn_show_screen *s) {
 
 void gn_truth_begin(struct gn_show_screen *s) {
     if (s->stage.display.screen.rotate_deg != 0) {
-        gn_show_note(s, "truth: not on a rotated screen");
+        gn_show_note(s, "Ray tracing: not on a rotated screen");
         return;
     }
     gn_truth_drop(s);
@@ -51,7 +53,7 @@ void gn_truth_step(struct gn_show_screen *s) {
     if (!t->on) return;
     if (!s->kiosk.paused) {
         gn_truth_end(s);
-        gn_show_note(s, "the scene goes on: no truth");
+        gn_show_note(s, "The scene moves on: no ray tracing");
         return;
     }
     if (!t->rays || t->shown) return;
@@ -114,7 +116,8 @@ const struct gn_plan *gn_truth_draw(struct gn_show_screen *s, int64_t time_ns, s
     } else if (!t->rays && gn_loop_now_ns(s->show->loop) >= t->changed_ns + REST_NS &&
                !begin_rays(s, &why)) {
         gn_truth_end(s);
-        gn_show_note(s, "%s", why.text);
+        fprintf(stderr, "gnomon: warning: %s\n", why.text);
+        gn_show_note(s, "Ray tracing: this scene has none");
     }
     return gn_view_draw(view, &s->stage, time_ns, s->show->warnings, err);
 }

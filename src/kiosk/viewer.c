@@ -31,21 +31,35 @@ static void add_button(const struct gn_button_config *button, char *out, size_t 
     }
     const int command = gn_ctl_find(gn_action_name(button->on[GN_GESTURE_PRESS].action.kind));
     if (*comma)
-        gn_text_add(out, size, ": %s\n",
+        gn_text_add(out, size, "\t%s\n",
                     command >= 0 ? gn_ctl_rows[command].what : "another action");
 }
 
+/* A title, then groups: a heading, rows, an empty line. */
 static void show_help(struct gn_show_screen *s, bool on) {
+    char *out = s->text.help;
+    const size_t size = sizeof s->text.help;
     s->viewer.helps = on;
-    s->text.help[0] = 0;
-    for (const struct gn_viewer_key *row = gn_viewer_keys; on && row->name; row++)
-        gn_text_add(s->text.help, sizeof s->text.help, "%s: %s\n", row->name, row->meaning);
+    *out = 0;
+    if (on) gn_text_add(out, size, "Keys\n");
+    for (const struct gn_viewer_key *row = gn_viewer_keys; on && row->name; row++) {
+        if (row->group)
+            gn_text_add(out, size, "%s%s\n", row == gn_viewer_keys ? "" : "\n", row->group);
+        gn_text_add(out, size, "%s\t%s\n", row->name, row->meaning);
+    }
+    if (on && s->show->buttons.map.count > 0) gn_text_add(out, size, "\nButtons\n");
     for (int i = 0; on && i < s->show->buttons.map.count; i++)
-        add_button(&s->show->buttons.map.items[i], s->text.help, sizeof s->text.help);
+        add_button(&s->show->buttons.map.items[i], out, size);
     s->changed = true;
 }
 
 /* ---- commands ---- */
+
+/* The reason is for the terminal. */
+static void show_failure(struct gn_show_screen *s, const char *what, const struct gn_err *err) {
+    fprintf(stderr, "gnomon: warning: %s\n", err->text);
+    gn_show_note(s, "%s", what);
+}
 
 static void choose_camera(struct gn_show_screen *s, int number) {
     const uint32_t count = s->stage.scene->camera_count, place = (uint32_t)number;
@@ -54,21 +68,21 @@ static void choose_camera(struct gn_show_screen *s, int number) {
     if (place < count)
         gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_CAMERA, .camera = camera});
     else
-        gn_show_note(s, "the scene has %u camera%s", count, count == 1 ? "" : "s");
+        gn_show_note(s, "The scene has %u camera%s", count, count == 1 ? "" : "s");
 }
 
 static void change_speed(struct gn_show_screen *s, int by) {
     gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = by});
     if (s->kiosk.speed >= 0)
-        gn_show_note(s, "speed %d", 1 << s->kiosk.speed);
+        gn_show_note(s, "Speed x%d", 1 << s->kiosk.speed);
     else
-        gn_show_note(s, "speed 1/%d", 1 << -s->kiosk.speed);
+        gn_show_note(s, "Speed 1/%d", 1 << -s->kiosk.speed);
 }
 
 static bool set_option(struct gn_show_screen *s, const char *key, const char *value) {
     struct gn_err err = {0};
     if (gn_show_set_option(s, gn_changes_find(key, &err), value, &err)) return true;
-    gn_show_note(s, "%s", err.text);
+    show_failure(s, "Not changed", &err);
     return false;
 }
 
@@ -76,7 +90,7 @@ static bool set_option(struct gn_show_screen *s, const char *key, const char *va
 static void change_environment(struct gn_show_screen *s) {
     const bool shown = s->looks.of[s->kiosk.shown.mode].frame_opts.environment.of;
     const char *next = shown ? "none" : "studio";
-    if (set_option(s, "environment", next)) gn_show_note(s, "environment: %s", next);
+    if (set_option(s, "environment", next)) gn_show_note(s, "Environment: %s", next);
 }
 
 /* All, as the scene begins, then each, then none. */
@@ -90,9 +104,9 @@ static void choose_clip(struct gn_show_screen *s) {
     char value[16];
     snprintf(value, sizeof value, "%d", next);
     if (count == 0)
-        gn_show_note(s, "the scene has no clips");
+        gn_show_note(s, "The scene has no clips");
     else if (set_option(s, "animation", next < count ? value : "none"))
-        gn_show_note(s, "clip: %s", next < count ? scene->animation.clips[next].name : "none");
+        gn_show_note(s, "Clip: %s", next < count ? scene->animation.clips[next].name : "none");
 }
 
 /* ---- screenshots ---- */
@@ -104,9 +118,9 @@ static void finish_screenshot(void *user, int64_t now_ns) {
     (void)now_ns;
     if (!gn_screenshot_take(s->viewer.screenshot, &ok, &err)) return;
     if (ok)
-        gn_show_note(s, "wrote %s", s->viewer.screenshot_path);
+        gn_show_note(s, "Saved %s", s->viewer.screenshot_path);
     else
-        gn_show_note(s, "%s", err.text);
+        show_failure(s, "The picture could not be saved", &err);
 }
 
 /* The first free gnomon-SCENE-NNN.png. */
@@ -131,9 +145,9 @@ static void write_screenshot(struct gn_show_screen *s) {
     if (!v->screenshot)
         v->screenshot = gn_screenshot_create(s->show->loop, finish_screenshot, s, &err);
     if (!v->screenshot) {
-        gn_show_note(s, "%s", err.text);
+        show_failure(s, "The picture could not be saved", &err);
     } else if (!choose_path(s, v->screenshot_path, sizeof v->screenshot_path)) {
-        gn_show_note(s, "screenshot: this folder has 999 of this scene, or cannot be read");
+        gn_show_note(s, "Not saved: this folder has 999 pictures of this scene, or cannot be read");
     } else {
         gn_screenshot_ask(v->screenshot, v->screenshot_path, -1);
         s->changed = true;
@@ -154,7 +168,7 @@ static void run_command(struct gn_show_screen *s, enum gn_viewer_command command
     case GN_VIEWER_TRUTH: gn_split_toggle_truth(s); break;
     case GN_VIEWER_SCREENSHOT: write_screenshot(s); break;
     case GN_VIEWER_RELOAD:
-        gn_show_note(s, "reloading ..");
+        gn_show_note(s, "Loading again ..");
         s->show->reloads = true;
         break;
     default: break;

@@ -206,9 +206,29 @@ static bool check_flags(const struct args *args, struct gn_err *err) {
 
 /* ---- the INI file, the flags, the mode ----------------------------------------------------- */
 
-/* The file; "" where there is none. */
-static bool load_config(struct gn_options *options, const char *path, struct gn_err *err) {
+/* The file; "" where there is none. With errors it is read to its end, without the lines that have
+ * some. */
+static bool load_config(struct gn_options *options, const char *path, bool to_its_end,
+                        struct gn_err *err) {
+    options->errors = NULL;
+    if (to_its_end) options->errors = gn_arena_alloc(&options->arena, 1, sizeof *options->errors);
     return !path[0] || gn_config_load(options, path, NULL, err);
+}
+
+/* A kiosk runs without the lines that are wrong; what is laid over the file is used whole or not at
+ * all. */
+static void report_lines(struct gn_options *options, struct gn_warnings *warnings) {
+    const struct gn_errors *errors = options->errors;
+    options->errors = NULL;
+    for (int i = 0; errors && i < errors->count; i++)
+        gn_warn(warnings, "%s (running without it)", errors->items[i].text);
+    if (!errors || errors->count == 0) return;
+    const int more = errors->count + errors->dropped - 1;
+    char text[sizeof errors->items[0].text + 32];
+    gn_text_format(text, sizeof text, "%s", errors->items[0].text);
+    if (more > 0) gn_text_add(text, sizeof text, " (and %d more)", more);
+    options->config_error = gn_arena_strdup(&options->arena, text);
+    options->config_shown = gn_arena_strdup(&options->arena, errors->items[0].shown);
 }
 
 static bool read_lesson(struct args *args, struct gn_err *err) {
@@ -218,8 +238,8 @@ static bool read_lesson(struct args *args, struct gn_err *err) {
     return lesson && gn_lesson_load(args->options, lesson, err);
 }
 
-/* A kiosk whose file is bad, or cannot be read, runs with its defaults and shows the reason; where
- * content is, with the file alone. */
+/* A kiosk whose file cannot be read runs with its defaults and shows the reason; where content
+ * cannot, with the file alone. */
 static bool read_config(struct args *args, struct gn_warnings *warnings, struct gn_err *err) {
     struct gn_options *options = args->options;
     char found[PATH_MAX];
@@ -230,16 +250,16 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     const struct flag *named = check ? check : find_flag(args, "config");
     const bool searches = row->config != GN_CONFIG_ASKED &&
                           !(row->config_unless && find_flag(args, row->config_unless));
+    const bool is_kiosk = row->config == GN_CONFIG_KIOSK && !check;
     if (!searches || !gn_config_find(found, sizeof found)) found[0] = '\0';
     const char *path = named ? named->text : found;
     struct gn_err why = {0};
-    if (check) options->errors = gn_arena_alloc(&options->arena, 1, sizeof *options->errors);
-    const bool is_read = load_config(options, path, &why);
+    const bool is_read = load_config(options, path, check || is_kiosk, &why);
+    if (is_kiosk) report_lines(options, warnings);
     if (is_read &&
         (check || !row->lays_content ||
          gn_options_lay_content(options, content ? content->text : NULL, warnings, &why)))
         return true;
-    const bool is_kiosk = row->config == GN_CONFIG_KIOSK && !check;
     const bool does_without =
         row->config == GN_CONFIG_OPTIONAL && !(named && why.status != GN_EXIT_USAGE);
     if (!is_kiosk && !does_without) {
@@ -248,8 +268,10 @@ static bool read_config(struct args *args, struct gn_warnings *warnings, struct 
     }
     gn_options_finish(options);
     gn_options_init(options, command);
-    if (is_read) load_config(options, path, NULL);
+    if (is_read) load_config(options, path, is_kiosk, NULL);
+    report_lines(options, NULL);
     options->config_error = gn_arena_strdup(&options->arena, why.text);
+    options->config_shown = gn_arena_strdup(&options->arena, why.shown);
     if (is_kiosk)
         gn_warn(warnings, "%s (running with %s)", why.text,
                 is_read && path[0] ? path : "the defaults");
@@ -316,9 +338,11 @@ bool gn_args_parse(struct gn_options *options, int argc, char *const *argv,
              read_config(&args, warnings, err) && apply_flags(&args, err);
         if (ok) gn_options_resolve(options);
         const struct gn_settings *s = options->settings;
-        if (ok && s->run.mode && !options->config_error)
-            ok = gn_options_choose(options, s->run.mode, err) ||
+        if (ok && s->run.mode && !gn_options_choose(options, s->run.mode, err)) {
+            ok = options->config_error || /* it may be what the file has lost */
                  gn_fail_prefix(err, "%s", gn_settings_label(s, run.mode));
+            if (ok) *err = (struct gn_err){0};
+        }
         if (ok && s->run.here && !s->run.check)
             ok = gn_fail_usage(err, "--here is valid only with --check FILE");
         ok = ok && check_animation(options->settings, warnings, err);

@@ -97,13 +97,11 @@ static bool has_mode(const struct gn_options *options, const char *name) {
     return found;
 }
 
-static bool check_actions(const struct gn_options *options, const struct gn_sections *all,
-                          const struct gn_section *section, struct gn_err *err) {
-    bool does_something = is_in_chord(all, section->name);
+static bool check_modes(const struct gn_options *options, const struct gn_section *section,
+                        struct gn_err *err) {
     for (const struct gn_override *o = section->first; o; o = o->next) {
         if (o->row->kind != GN_KIND_ACTION) continue;
         const struct gn_action *action = &((const struct gn_binding *)o->value)->action;
-        does_something = true;
         if (action->kind != GN_ACTION_MODE || has_mode(options, action->name)) continue;
         char names[300];
         gn_options_list_modes(options, names, sizeof names);
@@ -111,6 +109,14 @@ static bool check_actions(const struct gn_options *options, const struct gn_sect
                              options->mode_count ? names
                                                  : " a technique, since the file has no modes");
     }
+    return true;
+}
+
+static bool check_actions(const struct gn_sections *all, const struct gn_section *section,
+                          struct gn_err *err) {
+    bool does_something = is_in_chord(all, section->name);
+    for (const struct gn_override *o = section->first; o; o = o->next)
+        does_something |= o->row->kind == GN_KIND_ACTION;
     return does_something ||
            gn_fail_usage(err,
                          "%s: button \"%s\" has no action: set press, click, double, hold or "
@@ -118,12 +124,39 @@ static bool check_actions(const struct gn_options *options, const struct gn_sect
                          section->label, section->name);
 }
 
+/* Leaves those that can be used; says: the others' errors are noted. Without one, others may be of
+ * no use, either. One that goes to a mode that is not there does nothing when it is pressed. */
+static bool keep_valid(struct gn_options *options, struct gn_sections *kept, bool says,
+                       struct gn_err *err) {
+    bool valid[GN_SECTIONS_MAX];
+    const int count = kept->count;
+    for (int i = 0; i < count; i++) {
+        const struct gn_section *section = &kept->items[i];
+        struct gn_err why = {0};
+        valid[i] = check_place(section, &why) && check_actions(kept, section, &why) &&
+                   check_chord(kept, section, &why);
+        if (!says || (valid[i] && check_modes(options, section, &why))) continue;
+        gn_text_format(why.shown, sizeof why.shown, "Line %d: the button \"%s\" cannot be used.",
+                       section->line, section->name);
+        if (gn_errors_take(options->errors, &why)) continue;
+        *err = why;
+        return false;
+    }
+    kept->count = 0;
+    for (int i = 0; i < count; i++)
+        if (valid[i]) kept->items[kept->count++] = kept->items[i];
+    return kept->count == count || keep_valid(options, kept, false, err);
+}
+
 bool gn_buttons_take(struct gn_options *options, const struct gn_sections *sections, bool checks,
                      struct gn_err *err) {
+    struct gn_sections kept = *sections;
+    if (!keep_valid(options, &kept, checks, err)) return false;
+    if (kept.count == 0) return true;
     struct gn_buttons *buttons = gn_arena_alloc(&options->arena, 1, sizeof *buttons);
     if (!buttons) return gn_fail(err, "%s: no memory left", sections->items[0].label);
-    for (; buttons->count < sections->count; buttons->count++) {
-        const struct gn_section *section = &sections->items[buttons->count];
+    for (; buttons->count < kept.count; buttons->count++) {
+        const struct gn_section *section = &kept.items[buttons->count];
         struct gn_button_config *button = &buttons->items[buttons->count];
         button->opts.name = section->name;
         gn_section_fill(section, button);
@@ -135,10 +168,5 @@ bool gn_buttons_take(struct gn_options *options, const struct gn_sections *secti
             button->opts.bias = GN_BIAS_PULL_DOWN;
     }
     options->buttons = buttons;
-    for (int i = 0; checks && i < sections->count; i++)
-        if (!check_place(&sections->items[i], err) ||
-            !check_actions(options, sections, &sections->items[i], err) ||
-            !check_chord(sections, &sections->items[i], err))
-            return false;
     return true;
 }

@@ -8,6 +8,7 @@
 
 #include "core/file.h"
 #include "core/text.h"
+#include "options/explain.h"
 #include "options/section.h"
 #include "options/value.h"
 
@@ -154,8 +155,7 @@ static int line_before(const struct load *load, const struct gn_option_row *row)
     return setting ? setting->line : 0;
 }
 
-static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *err) {
-    struct load *load = user;
+static bool take_line(struct load *load, const struct gn_ini_line *line, struct gn_err *err) {
     if (!line->key) return open_section(load, line, err);
     const struct gn_option_row *row = gn_section_find_key(load->section, line->key);
     if (!row) return fail_key(line, load->section, err);
@@ -180,6 +180,13 @@ static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *e
     if (load->one) return set_one(load, row, text, &as, err);
     load->lines[row - gn_option_rows] = line->number;
     return gn_options_set(load->options, row, text, GN_SOURCE_INI, label, err);
+}
+
+static bool on_line(void *user, const struct gn_ini_line *line, struct gn_err *err) {
+    struct load *load = user;
+    if (take_line(load, line, err)) return true;
+    if (err) gn_config_explain(line, load->section, err);
+    return false;
 }
 
 static bool load_text(struct load load, const char *text, size_t size, struct gn_err *err) {

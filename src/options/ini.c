@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "core/text.h"
+
 struct reader {
     const char *path, *at, *end;
     gn_ini_handler *handler;
@@ -17,9 +19,17 @@ struct reader {
     const char *section, *name;
 };
 
+static void show_line(struct reader *r, const char *what) {
+    const char *slash = strrchr(r->path, '/');
+    if (r->err)
+        gn_text_format(r->err->shown, sizeof r->err->shown, "Line %d of %s: %s.", r->number,
+                       slash ? slash + 1 : r->path, what);
+}
+
 static bool refuse_line(struct reader *r, const char *what) {
     r->failed = true;
     gn_fail_usage(r->err, "%s: %s", r->where, what);
+    show_line(r, what);
     return false;
 }
 
@@ -65,8 +75,10 @@ static bool check_setting(struct reader *r, const char *line) {
             r, "begins with a space; a setting is one line and begins at its first column");
     if (line[length] != '=') {
         r->failed = true;
-        return gn_fail_usage(r->err, "%s: expected KEY = VALUE or [section], not \"%.60s\"",
-                             r->where, line);
+        gn_fail_usage(r->err, "%s: expected KEY = VALUE or [section], not \"%.60s\"", r->where,
+                      line);
+        show_line(r, "expected KEY = VALUE or [section]");
+        return false;
     }
     while (length > 0 && is_blank(line[length - 1])) length--;
     if (length == 0) return refuse_line(r, "expected a key before the =");

@@ -25,12 +25,13 @@ struct gn_options {
     const char *config_path;          /* the INI file that was read, or NULL */
     const char *content; /* the folder that was laid over it (content.h), without links; or NULL */
     const char *base_path; /* over this INI file, if config_path is that folder's own; or NULL */
-    /* Why the file was not used and `show` runs with the defaults, or NULL. In a kiosk that runs it
-     * is also why the last reload failed, or another lasting problem, while the configuration
-     * before stays in use (gn_show_report_error()). */
+    /* The first line of the file that `show` runs without, or why it runs with the defaults, or
+     * NULL. In a kiosk that runs it is also why the last reload failed, or another lasting problem,
+     * while the configuration before stays in use (gn_show_report_error()). */
     const char *config_error;
+    const char *config_shown; /* what the screen says of that; "" or NULL: what it says of any */
 
-    struct gn_errors *errors; /* --check: all of the file, which is read to its end; else NULL */
+    struct gn_errors *errors; /* while a file is read to its end, and with --check: all of it */
 
     const char *const
         *words; /* of ctl: its command and arguments; of compare and score: files; argv's */

@@ -23,7 +23,7 @@ enum gn_words {                   /* what follows a command */
 enum gn_command_config {                     /* the configuration file, beside that of -c FILE */
                          GN_CONFIG_ASKED,    /* none */
                          GN_CONFIG_FOUND,    /* the first of gn_config_find(); bad: it fails */
-                         GN_CONFIG_KIOSK,    /* likewise; bad: runs with the defaults and warns */
+                         GN_CONFIG_KIOSK,    /* likewise; runs without the lines that are bad */
                          GN_CONFIG_OPTIONAL, /* likewise; bad: does without it */
                          GN_CONFIG_LESSON,   /* what the lesson sets, in place of any file */
 };

@@ -21,6 +21,7 @@ enum gn_viewer_command {
 enum { GN_VIEWER_KEYS_MAX = 9 };
 struct gn_viewer_key {
     const char *name, *meaning;        /* for people */
+    const char *group;                 /* of the rows from this one on; NULL: as before */
     enum gn_viewer_command command;    /* NONE: the window or the mouse does it */
     const char *letters;               /* characters, wherever the layout has them; or NULL */
     uint16_t keys[GN_VIEWER_KEYS_MAX]; /* enum gn_key; 0: no more */

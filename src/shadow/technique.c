@@ -6,6 +6,7 @@
 const struct gn_technique_row gn_techniques[GN_TECHNIQUE_ALL] = {
 #include "shadow/technique_rows.h"
     [GN_TECHNIQUE_TRUTH] = {.name = "truth",
+                            .title = "Ray tracing",
                             .file = "shadow/truth.glsl",
                             .on_screen = true,
                             .what = "rays to points of the light, on the CPU",

@@ -42,6 +42,8 @@ enum gn_encoding {
 
 struct gn_technique_row {
     const char *name;
+    const char *title;    /* for people who look at the picture; several have the same */
+    bool offered;         /* a kiosk without modes goes through these alone */
     int rank;             /* place in the kiosk's order of modes, from 1, best first; 0: last */
     const char *file;     /* below shaders_es/, NULL for none */
     bool compares_linear; /* compares and weighs four texels: needs a LINEAR compare sampler */

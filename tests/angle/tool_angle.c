@@ -106,7 +106,7 @@ static bool lacks_extensions(struct run *run, const json_t *gpu) {
 }
 
 static bool is_strict(struct run *run) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     draw_strictly(run, true);
     run->doctor = ask_doctor(&err);
     if (!run->doctor) return refuse(err.text);
@@ -133,7 +133,7 @@ static void add_job(struct run *run, const char *scene, const char *technique, c
     const char *const args[] = {"--size",       SIZE,   "--shadow",  technique,
                                 "--planar",     planar, "--backend", "egl",
                                 "--map-format", format, "--without", run->without};
-    *job = (struct job){.scene = scene, .err = {{0}, GN_EXIT_RUNTIME}};
+    *job = (struct job){.scene = scene};
     memcpy(job->args, args, sizeof args);
     snprintf(job->name, sizeof job->name, "%.20s %s %s", base ? base + 1 : scene, technique,
              strcmp(planar, "mask") != 0 ? planar : format);
@@ -259,7 +259,7 @@ static int check_kind(const struct run *run, enum gn_table_kind kind, const char
 
 int main(int argc, char **argv) {
     static struct run run;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     static char generated[3][600];
     static const int numbers[] = {3, 14, 26}; /* a sun, a spot, a point light */
     if (argc != 2) {

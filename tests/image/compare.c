@@ -44,7 +44,7 @@ static void make_folder(const char *path) {
 static void save(const char *folder, const char *name, const char *kind,
                  const struct gn_picture *picture) {
     char path[1024];
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     bool failed = !folder;
     if (failed) folder = "build/failures";
     make_folder(folder);

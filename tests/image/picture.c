@@ -87,7 +87,7 @@ static void to_floats(struct gn_picture *picture, const uint8_t *bytes, bool wid
 }
 
 static bool read_png(struct gn_picture *picture, FILE *file, const char *path, struct gn_err *err) {
-    struct gn_err said = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err said = {0};
     png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &said, png_failed, png_warned);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     uint8_t *volatile bytes = NULL;

@@ -200,7 +200,7 @@ static void measure(struct job *job, struct gn_drawer *drawer, struct sight *sig
                     struct gn_table_row *row, int scene) {
     struct gn_truth *truth = &sight->truth;
     struct gn_picture shot;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char name[100];
     gn_truth_band(truth, row->map_px);
     gn_truth_safe(truth, row->map_px, reach_of(row));
@@ -230,7 +230,7 @@ static void scene_path(const struct gn_table *table, int scene, char *out, size_
 static void measure_scene(struct job *job, int scene) {
     struct gn_table *table = job->table;
     struct sight sight;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char path[600];
     scene_path(table, scene, path, sizeof path);
     if (!sight_load(&sight, path, NULL, &err)) {
@@ -412,7 +412,7 @@ int gn_table_check(const struct gn_table *table, FILE *to) {
 static void save_cell(const struct gn_table *table, const struct gn_table_row *row, int scene) {
     struct sight sight;
     struct gn_picture shot;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char path[600], name[100];
     scene_path(table, scene, path, sizeof path);
     if (!sight_load(&sight, path, NULL, &err)) return;
@@ -444,7 +444,7 @@ void gn_table_save_failures(const struct gn_table *table) {
 static bool measure_contact(const char *path, const struct gn_table_row *row,
                             struct gn_contact *contact, struct gn_truth *truth, FILE *to) {
     struct gn_picture shot;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const struct gn_mask_truth *mask = &truth->mask;
     if (!take_shot(&shot, row, path, mask->width_px, mask->height_px, &err)) {
         fprintf(to, "%s\n", err.text);
@@ -477,7 +477,7 @@ int gn_table_contacts(const char *folder, const struct gn_table_row *rows, int r
         /* Larger than the rest, so that a pixel is smaller than a texel; too large to keep. */
         const struct gn_truth_opts opts = {.width_px = 1920, .height_px = 1440, .no_cache = true};
         struct gn_truth truth;
-        struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+        struct gn_err err = {0};
         char path[600];
         snprintf(path, sizeof path, "%s/%s", folder, scenes[s]);
         if (!gn_truth_load(&truth, path, &opts, &err)) {

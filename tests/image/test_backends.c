@@ -35,7 +35,7 @@ static bool shot_by(struct gn_picture *picture, const char *backend, const char 
 /* Not more than 1/255 apart in 99.9 % of the pixels. */
 static bool backends_agree(const char *scene, const struct look *look) {
     struct gn_picture egl = {0}, osmesa = {0};
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     struct gn_difference d;
     bool ok =
         shot_by(&egl, "egl", scene, look, &err) && shot_by(&osmesa, "osmesa", scene, look, &err);
@@ -56,7 +56,7 @@ static bool backends_agree(const char *scene, const struct look *look) {
 
 static bool runs_are_equal(const char *scene, const char *backend, const struct look *look) {
     struct gn_bytes bytes[2] = {{0}};
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *args[16] = {"--backend", backend};
     char path[2][400];
     bool ok = true;
@@ -87,7 +87,7 @@ static const char *osmesa_missing(const char *scene) {
 }
 
 int main(void) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char *folder = gn_table_scenes(false, &err), generated[2][600];
     if (!folder) {
         printf("%s\n", err.text);

@@ -88,7 +88,7 @@ struct look {
 
 static struct gn_picture shoot(const char *path, const char *background, const struct look *look) {
     struct gn_picture picture;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char size[32];
     snprintf(size, sizeof size, "%dx%d", WIDTH, HEIGHT);
     const char *args[20] = {"--size",

@@ -16,7 +16,7 @@ static struct gn_run result;
 
 static int bench(const char *const args[]) {
     const char *argv[32] = {gn_shot_program(), "bench"};
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     for (int i = 0; args[i]; i++) argv[2 + i] = args[i];
     if (!gn_run(&result, argv, 0, &err)) fail_msg("%s", err.text);
     return result.status;
@@ -240,7 +240,7 @@ static void test_each_run_has_its_time_on_a_board(void **state) {
     json_t *json = bench_json();
     double ms[2];
     for (size_t i = 0; i < 2; i++) {
-        struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+        struct gn_err err = {0};
         const char *const argv[] = {gn_shot_program(), "inspect",     SCENE,   "--json",
                                     "--size",          "160x90",      "--for", "g52",
                                     "--shadow",        techniques[i], NULL};

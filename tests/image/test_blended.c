@@ -93,7 +93,7 @@ static void expect_at(const struct gn_picture *picture, double x_m, const double
 
 static void draw_and_check(const char *path) {
     struct gn_picture picture;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--size", "160x90",     "--backend", "egl", "--shadow",
                                 "none",   "--exposure", "0",         NULL};
     if (!gn_shot(&picture, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
@@ -166,7 +166,7 @@ static const char *make_pane(const char *material, bool casts) {
 /* The mean of the visibility under the inner half of the pane. */
 static double light_under(const char *path, const char *technique, const char *planar) {
     struct gn_picture picture;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--size",     "320x180",  "--backend", "egl",      "--aov",
                                 "visibility", "--shadow", technique,   "--planar", planar,
                                 "--map",      "512",      NULL};
@@ -227,7 +227,7 @@ static void test_what_is_in_a_vessel_is_behind_its_near_side(void **state) {
     char path[600], text[200];
     struct gn_maker maker;
     struct gn_picture picture;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--size", "160x90", "--backend", "egl", NULL};
     gn_maker_init(&maker);
     gn_maker_square(&maker);

@@ -48,7 +48,7 @@ static int setup(void **state) {
     captions = gn_captions_create(&(struct gn_captions_opts){0});
     gn_captions_set(captions, GN_CAPTION_INFO, "gnomon 0.1.0\nFrames: 59.9 a second", 0);
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft \xc3\xa4\xe4\xb8\x80", 0);
-    gn_captions_set(captions, GN_CAPTION_ERROR,
+    gn_captions_set(captions, GN_CAPTION_TEXT,
                     "kiosk.ini:14: shadow = pfc: no such technique; did you mean pcf? It goes on "
                     "with what was there before",
                     0);
@@ -203,12 +203,12 @@ static void test_antialiased(void **state) {
 
 static void test_a_fade_is_between(void **state) {
     (void)state;
-    gn_captions_set(captions, GN_CAPTION_ERROR, NULL, 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, NULL, 0);
     gn_captions_set(captions, GN_CAPTION_INFO, NULL, 0);
     draw(NULL, bare);
     draw(run_at(0), other);
-    draw(run_at(1850 * MS), shown);
-    expect_blended(run_at(1850 * MS), false, tolerance());
+    draw(run_at(1800 * MS), shown);
+    expect_blended(run_at(1800 * MS), false, tolerance());
     unsigned changed = 0;
     for (size_t i = 0; i < PIXELS; i++)
         for (int k = 0; k < 3; k++) {
@@ -228,7 +228,7 @@ static void test_what_is_gone_leaves_every_byte(void **state) {
     assert_int_equal(draw(&unseen, shown)->pass_count, passes);
     assert_memory_equal(bare, shown, sizeof bare);
     unseen.width_px++; /* of a picture that is of another size by now */
-    unseen.alpha[GN_CAPTION_ERROR] = 1;
+    unseen.alpha[GN_CAPTION_TEXT] = 1;
     assert_int_equal(draw(&unseen, shown)->pass_count, passes);
     assert_memory_equal(bare, shown, sizeof bare);
 }

@@ -197,7 +197,7 @@ static bool read_bytes(struct gn_picture *picture, const void *bytes, size_t siz
     assert_non_null(file);
     assert_int_equal(fwrite(bytes, 1, size, file), size);
     fclose(file);
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     bool ok = gn_picture_read(picture, path, &err);
     assert_true(ok || err.text[0]);
     unlink(path);
@@ -268,7 +268,7 @@ static void test_png_of_16_and_8_bits(void **state) {
     (void)state;
     uint8_t bytes[128];
     struct gn_picture p, q;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     assert_true(read_bytes(&p, bytes, make_png16(bytes)));
     assert_true(p.channels == 1 && p.width_px == 1 && p.height_px == 2);
     assert_true(p.data[0] == 32768.f / 65535 && p.data[1] == 1);
@@ -302,7 +302,7 @@ static void test_failure_leaves_three_pictures(void **state) {
     static const char *const kinds[3] = {"shot", "truth", "diff"};
     for (int i = 0; i < 3; i++) {
         struct gn_picture p;
-        struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+        struct gn_err err = {0};
         snprintf(path, sizeof path, "%s/spoilt-%s.png", folder, kinds[i]);
         assert_true(gn_picture_read(&p, path, &err));
         assert_int_equal(p.width_px, W);
@@ -322,7 +322,7 @@ static void test_failure_leaves_three_pictures(void **state) {
 static void test_runs_programs(void **state) {
     (void)state;
     struct gn_run *run = calloc(1, sizeof *run);
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     assert_true(gn_run(run, (const char *[]){"/bin/sh", "-c", "echo a; echo b >&2; exit 3", NULL},
                        0, &err));
     assert_int_equal(run->status, 3);

@@ -9,7 +9,7 @@
  * sun from +X, 45 degrees high. */
 static struct gn_scene *load_cube(void) {
     struct gn_maker maker;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_cube(&maker);
@@ -36,7 +36,7 @@ static void test_truth_of_a_cube_from_a_file(void **state) {
     (void)state;
     struct gn_scene *scene = load_cube();
     struct gn_truth truth;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     struct gn_truth_opts opts = {.width_px = 320, .height_px = 240};
     assert_true(gn_truth_make(&truth, scene, &opts, &err));
     int dark = 0;

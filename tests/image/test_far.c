@@ -202,7 +202,7 @@ static int check_pictures(const char *from, const char *folder, enum how how) {
         char near[700], far[700];
         double most;
         size_t over;
-        struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+        struct gn_err err = {0};
         snprintf(near, sizeof near, "%s/truth-%02d.glb", from, SCENES[i]);
         snprintf(far, sizeof far, "%s/truth-%02d.glb", folder, SCENES[i]);
         if (!compare_shots(near, far, &most, &over, &err)) {
@@ -224,7 +224,7 @@ static int check_coordinates(const char *near, const char *far) {
     static const char *const there[] = {
         "--camera-target", "100000,0.5,100000", "--camera-distance", "6", "--floor", "-1", NULL};
     struct gn_picture a = {0}, b = {0};
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     size_t over = 0;
     bool ok =
         gn_shot(&a, NULL, &err, "png", near, here) && gn_shot(&b, NULL, &err, "png", far, there);
@@ -238,7 +238,7 @@ static int check_coordinates(const char *near, const char *far) {
 }
 
 int main(void) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     static struct gn_table near_faults, far_faults;
     int wrong = 0;
     char *from = gn_table_scenes(false, &err), folder[WAYS][600];

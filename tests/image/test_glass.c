@@ -89,7 +89,7 @@ static const char *write_thing(const struct thing *t) {
 
 static struct gn_picture draw(const struct thing *thing, const char *environment) {
     struct gn_picture picture;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--environment", environment, "--output", "linear",  "--size",
                                 "120x120",       "--shadow",  "none",     "--floor", "none",
                                 "--exposure",    "0",         NULL};

@@ -9,6 +9,7 @@
 
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/text.h"
 #include "gl/private.h"
 #include "kiosk/private.h"
 #include "unit/gl_help.h"
@@ -32,6 +33,7 @@ static uint64_t map_bytes(const struct gn_show *show) {
 static void one_program_a_frame_is_made_ahead_and_no_more(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--no-animation", "--turntable", "10");
+    help_show_all_modes(show);
     help_show_frames(show, 1);
     const uint64_t shown_bytes = map_bytes(show);
     assert_true(shown_bytes > 1000000);
@@ -60,6 +62,7 @@ static void a_switch_is_seen_in_the_next_frame_and_makes_nothing(void **state) {
     const bool full = getenv("GN_FULL");
     const int switches = full ? 1000 : 120, ahead = full ? 240 : 120;
     struct gn_show *show = OPEN("--turntable", "240");
+    help_show_all_modes(show);
     help_show_until_warm(show);
     size_t most = 0, least = SIZE_MAX;
     for (int i = 0; i < ahead; i++) { /* from all sides: lists have grown, and maps have pages */
@@ -127,6 +130,40 @@ static void a_still_picture_changes_when_the_mode_is_ready(void **state) {
     gn_show_close(show);
 }
 
+/* The names on the screen of what a kiosk without modes goes through, until it is back. */
+static void list_round(struct gn_show *show, char *out, size_t size) {
+    const int first = show->screen.kiosk.shown.mode;
+    *out = 0;
+    do {
+        help_show_act(show, GN_ACTION_NEXT);
+        const int mode = show->screen.kiosk.wanted.mode;
+        gn_text_add(out, size, "%s%s", *out ? ", " : "", show->modes.titles[mode]);
+    } while (show->screen.kiosk.wanted.mode != first);
+}
+
+/* All others are there for ctl, and their programs are made when they are wanted. */
+static void visitors_go_through_three_modes(void **state) {
+    (void)state;
+    char round[400];
+    struct gn_show *show = OPEN("--no-animation");
+    list_round(show, round, sizeof round);
+    assert_string_equal(round, "Soft shadows, No shadows, Sharp shadows");
+    help_show_until_warm(show);
+    assert_int_equal(show->screen.looks.ready,
+                     ~show->modes.passed_by & ((1u << show->modes.count) - 1));
+    const int msm = gn_show_find_mode(&show->modes, "msm");
+    assert_true(msm >= 0 && show->modes.passed_by >> msm & 1);
+    struct gn_action to = {.kind = GN_ACTION_MODE, .name = "msm"};
+    gn_show_act(&show->screen, &to, 0);
+    for (int i = 0; i < 1000 && show->screen.kiosk.shown.mode != msm; i++) help_show_step(show);
+    assert_int_equal(show->screen.kiosk.shown.mode, msm);
+    gn_show_close(show);
+    show = OPEN("--mode", "pcss"); /* who knows one may want others */
+    list_round(show, round, sizeof round);
+    assert_non_null(strstr(round, "Smooth shadows"));
+    gn_show_close(show);
+}
+
 static void flags_leave_one_technique(void **state) {
     (void)state;
     struct gn_show *show = OPEN("--shadow", "hard");
@@ -143,7 +180,7 @@ static void the_page_names_the_scene_inside_the_program(void **state) {
     help_show_frames(show, 1);
     help_show_act(show, GN_ACTION_INFO);
     help_show_frames(show, 1);
-    if (!strstr(show->screen.text.page.text, "\nScene: default scene\n"))
+    if (!strstr(show->screen.text.page.text, "\nScene\tSundial\n"))
         fail_msg("%s", show->screen.text.page.text);
     gn_show_close(show);
 }
@@ -278,6 +315,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_switch_is_seen_in_the_next_frame_and_makes_nothing),
         cmocka_unit_test(what_is_not_ready_keeps_the_old_picture),
         cmocka_unit_test(a_still_picture_changes_when_the_mode_is_ready),
+        cmocka_unit_test(visitors_go_through_three_modes),
         cmocka_unit_test(flags_leave_one_technique),
         cmocka_unit_test(the_page_names_the_scene_inside_the_program),
         cmocka_unit_test(pause_stands_and_blank_is_dark),

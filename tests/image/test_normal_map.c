@@ -123,7 +123,7 @@ static void add_band(struct gn_maker *maker, const struct band *band) {
 static struct gn_picture draw(const struct band *band) {
     struct gn_maker maker;
     struct gn_picture picture;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char path[300], node[200];
     gn_maker_init(&maker);
     add_band(&maker, band);

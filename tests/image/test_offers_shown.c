@@ -115,7 +115,7 @@ static void cameras_are_gone_through(void **state) {
     assert_string_equal(mode_of(show), "Near");
     press(show, GN_ACTION_NEXT);
     assert_string_equal(mode_of(show), "Camera 2");
-    assert_string_equal(show->screen.text.modes, "Camera 2");
+    assert_string_equal(show->screen.text.change, "Camera 2");
     count_colors(show, &far, &none);
     if (!(near > 2 * far && far > 0)) fail_msg("%u and %u pixels", near, far);
     press(show, GN_ACTION_NEXT);
@@ -137,7 +137,7 @@ static void variants_are_gone_through(void **state) {
     count_colors(show, &red, &blue);
     assert_true(red > 0 && blue == 0);
     press(show, GN_ACTION_NEXT);
-    assert_string_equal(show->screen.text.modes, "blue");
+    assert_string_equal(show->screen.text.change, "blue");
     count_colors(show, &red, &blue);
     assert_true(red == 0 && blue > 0);
     gn_show_close(show);
@@ -176,7 +176,7 @@ static void a_press_plays_the_clip(void **state) {
     }
     assert_int_equal(show->screen.drawn.clips_begun_ns, 0);
     press(show, GN_ACTION_NEXT);
-    assert_string_equal(show->screen.text.modes, "Rise");
+    assert_string_equal(show->screen.text.change, "Rise");
     assert_true(show->screen.drawn.clips_begun_ns >= 2 * GN_NS_PER_S);
     gn_show_close(show);
 }
@@ -188,7 +188,7 @@ static void a_scene_with_nothing_turns_and_stands(void **state) {
     read_picture(show, before);
     show->screen.kiosk.scene_ns = 3630 * GN_NS_PER_S; /* half a turn and more */
     press(show, GN_ACTION_NEXT);
-    assert_string_equal(show->screen.text.modes, "turning");
+    assert_string_equal(show->screen.text.change, "Turning");
     assert_true(show->screen.stage.settings->scene.turntable_deg_s == GN_OFFER_TURNTABLE_DEG_S);
     const float angle = show->screen.stage.shown.opts.view.turntable_rad;
     if (!(angle < .5f)) fail_msg("it begins at %g", (double)angle);

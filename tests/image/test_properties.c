@@ -100,7 +100,7 @@ static void make(const char *to, const struct how *how, const struct move *move)
 
 static void shoot(struct gn_picture *picture, const char *scene, const char *time_s,
                   const char *shadow) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--size",     "160x120",  "--backend", "egl",       "--time",
                                 time_s,       "--shadow", shadow,      "--samples", "1",
                                 "--exposure", "0",        NULL};
@@ -109,7 +109,7 @@ static void shoot(struct gn_picture *picture, const char *scene, const char *tim
 
 /* At 1 s, as the second frame of a film that begins at 0 s. */
 static void shoot_second(struct gn_picture *picture, const char *scene, const char *shadow) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--size",     "160x120", "--backend", "egl",      "--frames",
                                 "2",          "--fps",   "1",         "--shadow", shadow,
                                 "--exposure", "0",       NULL};

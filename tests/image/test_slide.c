@@ -120,7 +120,7 @@ static const char *make_scene(const struct beam *beam, bool with_slide) {
 
 static void shoot(struct gn_picture *picture, const char *path, const char *aov,
                   const char *technique) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--aov",    aov,       "--size",     "640x480", "--backend", "egl",
                                 "--shadow", technique, "--exposure", "0",       NULL};
     if (!gn_shot(picture, NULL, &err, "pfm", path, args)) fail_msg("%s", err.text);
@@ -241,7 +241,7 @@ static struct lamp lamp_of(const struct gn_pose *pose) {
 }
 
 static struct verdict compare(const struct beam *beam) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     struct gn_picture shown, seen = {0};
     struct gn_pose pose;
     struct gn_raycast rays;

@@ -27,6 +27,7 @@ static void programs_of_other_modes_are_within_their_share(void **state) {
     struct gn_show *show = help_show((const char *const[]){
         "--size", "64x64", "--limit", "ahead_percent=10", "--no-animation", NULL});
     gn_memory_pretend_mb(1024); /* a board */
+    help_show_all_modes(show);
     help_show_until_warm(show);
     assert_int_equal(show->screen.looks.made, (1u << show->modes.count) - 1);
     assert_int_equal(show->screen.looks.ready, 1u << show->screen.kiosk.shown.mode);
@@ -81,6 +82,7 @@ static void a_switch_takes_no_more_than_two_frames(void **state) {
         "--size", "640x360", "--limit", "ahead_percent=100000", "--turntable", "10", NULL});
     int64_t switch_ns[GN_KIOSK_MODES_MAX], steady_ns[GN_KIOSK_MODES_MAX][ROUNDS] = {{0}};
     for (int m = 0; m < show->modes.count; m++) switch_ns[m] = INT64_MAX;
+    help_show_all_modes(show);
     help_show_until_warm(show);
     for (int i = 0; i < ROUNDS * show->modes.count; i++) {
         const int round = i / show->modes.count;

@@ -163,7 +163,7 @@ static const char *make_scene(const char *name, int lights) {
 static struct gn_picture shoot(const char *kind, const char *path, const char *ev, const char *tone,
                                const char *without) {
     struct gn_picture picture;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char size[32];
     snprintf(size, sizeof size, "%dx%d", WIDTH, HEIGHT);
     const char *args[20] = {"--size", size,       "--backend", "egl", "--exposure", ev,  "--tone",

@@ -53,7 +53,7 @@ static void full_rows(struct gn_table *table, enum gn_table_kind kind) {
 static bool notices_a_wrong_picture(const char *folder) {
     static struct gn_table table;
     struct gn_truth truth;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char path[600];
     snprintf(path, sizeof path, "%s/truth-01.glb", folder);
     if (!gn_truth_load(&truth, path, NULL, &err)) {
@@ -76,7 +76,7 @@ static bool notices_a_wrong_picture(const char *folder) {
 
 static int check_contacts(const struct gn_table *table) {
     struct gn_table_row rows[GN_TABLE_ROWS];
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     int count = 0;
     for (int i = 0; i < table->row_count; i++)
         if (table->rows[i].map_px == 1024 && (!strcmp(table->rows[i].technique, "hard") ||
@@ -109,7 +109,7 @@ static int check_kind(struct gn_table *table, enum gn_table_kind kind, const cha
 
 int main(void) {
     static struct gn_table table;
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     char *folder = gn_table_scenes(false, &err);
     int over = 0;
     if (!folder) {

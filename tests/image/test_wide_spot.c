@@ -45,7 +45,7 @@ static int remove_scene(void **state) {
 
 static void shoot(struct gn_picture *picture, const char *aov, const char *technique,
                   const char *format) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     const char *const args[] = {"--aov",        aov,    "--size",   "640x480",
                                 "--backend",    "egl",  "--shadow", technique,
                                 "--map-format", format, NULL};

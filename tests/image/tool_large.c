@@ -5,7 +5,7 @@
 #include "image/large.h"
 
 int main(int argc, char **argv) {
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     if (argc != 4 && argc != 6) {
         fprintf(stderr, "usage: tool_large FILE.glb TRIANGLES NODES [TEXTURES PX]\n");
         return 2;

@@ -189,7 +189,7 @@ static int print_soft(const struct arguments *a, FILE *csv) {
 int main(int argc, char **argv) {
     static struct gn_table table;
     struct arguments a = {.contact = true, .soft = true, .hard = true};
-    struct gn_err err = {{0}, GN_EXIT_RUNTIME};
+    struct gn_err err = {0};
     if (!parse(argc, argv, &a)) return refuse("wrong options");
     if (!fill(&table, &a, NULL))
         return refuse("wrong list of scenes or techniques, or wrong map size");

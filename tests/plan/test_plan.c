@@ -423,7 +423,7 @@ static const struct gn_caption_atlas atlas = {4, 8, glyphs, 1};
 static const struct gn_caption_quad quads[] = {
     {.x = 30, .y = 600, .width = 200, .height = 45, .caption = GN_CAPTION_MODE, .ground = true},
     {.x = 45, .y = 610, .width = 4, .height = 8, .caption = GN_CAPTION_MODE},
-    {.x = 30, .y = 655, .width = 900, .height = 45, .caption = GN_CAPTION_ERROR, .ground = true},
+    {.x = 30, .y = 655, .width = 900, .height = 45, .caption = GN_CAPTION_TEXT, .ground = true},
 };
 static const struct gn_caption_run captions = {1280, 720, quads, 3, {0, 0.5f, 1}, &atlas};
 
@@ -444,7 +444,7 @@ static void test_captions_that_are_not_seen(void **state) {
     struct gn_caption_run run = captions;
     gn_plan_begin(&f, GN_EVERY_CAP);
     const uint32_t passes = gn_plan_make(&f)->pass_count;
-    run.alpha[GN_CAPTION_ERROR] = 0;
+    run.alpha[GN_CAPTION_TEXT] = 0;
     f.opts.cover.captions = &run;
     const struct gn_plan *plan = gn_plan_make(&f);
     assert_int_equal(plan->pass_count, passes + 1);

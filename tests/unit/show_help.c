@@ -54,6 +54,11 @@ struct gn_show *help_show_of(const char *config, const char *const more[]) {
     return show;
 }
 
+void help_show_all_modes(struct gn_show *show) {
+    show->screen.rules.passed_by = 0;
+    show->screen.ahead.idle = false;
+}
+
 void help_show_step(struct gn_show *show) {
     struct gn_err err = {0};
     if (!gn_show_step(show, &err)) fail_msg("%s", err.text);

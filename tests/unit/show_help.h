@@ -12,6 +12,8 @@ struct gn_show *help_show(const char *const more[]);
 struct gn_show *help_show_of(const char *config, const char *const more[]);
 /* As help_show(), but perhaps before the first scene is there, as any kiosk on a slow machine. */
 struct gn_show *help_show_begun(const char *const more[]);
+/* As in a window: next and prev go through all techniques, whose programs are all made ahead. */
+void help_show_all_modes(struct gn_show *show);
 void help_show_step(struct gn_show *show);
 /* Does it and wakes the kiosk, as what a button is behind would. */
 void help_show_act(struct gn_show *show, enum gn_action_kind kind);

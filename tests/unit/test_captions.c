@@ -7,7 +7,7 @@
 #include "image/dice.h"
 #include "unit/check.h"
 
-enum { WIDTH = 640, HEIGHT = 480, LINE = 20, DOT = 2 };
+enum { WIDTH = 640, HEIGHT = 480, LINE = 30, DOT = 3 /* of a mode's name */ };
 #define MS INT64_C(1000000)
 
 static struct gn_captions *captions;
@@ -36,8 +36,8 @@ static const struct gn_caption_run *run_at(int64_t now_ns) {
 static void test_a_mode_fades_and_is_gone_after_2_s(void **state) {
     (void)state;
     assert_true(gn_caption_alpha(GN_CAPTION_MODE, 0) == 1.0f);
-    assert_true(gn_caption_alpha(GN_CAPTION_MODE, 1700 * MS) == 1.0f);
-    assert_true(gn_caption_alpha(GN_CAPTION_MODE, 1850 * MS) == 0.5f);
+    assert_true(gn_caption_alpha(GN_CAPTION_MODE, 1600 * MS) == 1.0f);
+    assert_true(gn_caption_alpha(GN_CAPTION_MODE, 1800 * MS) == 0.5f);
     assert_true(gn_caption_alpha(GN_CAPTION_MODE, 2000 * MS) == 0.0f);
     assert_true(gn_caption_alpha(GN_CAPTION_MODE, INT64_MAX) == 0.0f);
     float before = 1.0f;
@@ -48,11 +48,12 @@ static void test_a_mode_fades_and_is_gone_after_2_s(void **state) {
     }
 }
 
-static void test_what_is_wrong_stays(void **state) {
+static void test_what_stays_is_opaque(void **state) {
     (void)state;
     const int64_t year_ns = MS * 1000 * 86400 * 365;
-    assert_true(gn_caption_alpha(GN_CAPTION_ERROR, 10 * year_ns) == 1.0f);
+    assert_true(gn_caption_alpha(GN_CAPTION_TEXT, 10 * year_ns) == 1.0f);
     assert_true(gn_caption_alpha(GN_CAPTION_INFO, 10 * year_ns) == 1.0f);
+    assert_true(gn_caption_alpha(GN_CAPTION_MARK, 10 * year_ns) == 1.0f);
 }
 
 static void test_frames_are_asked_for_when_they_differ(void **state) {
@@ -61,7 +62,7 @@ static void test_frames_are_asked_for_when_they_differ(void **state) {
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft", 5000 * MS);
     assert_true(gn_captions_next_ns(captions) == 0);
     assert_non_null(run_at(5001 * MS));
-    assert_true(gn_captions_next_ns(captions) == 6700 * MS);
+    assert_true(gn_captions_next_ns(captions) == 6600 * MS);
     assert_non_null(run_at(6800 * MS));
     assert_true(gn_captions_next_ns(captions) == 0); /* it fades */
     assert_non_null(run_at(6990 * MS));
@@ -72,13 +73,13 @@ static void test_frames_are_asked_for_when_they_differ(void **state) {
 
 static void test_what_stays_asks_for_one_frame(void **state) {
     (void)state;
-    gn_captions_set(captions, GN_CAPTION_ERROR, "No scene", 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "No scene", 0);
     assert_true(gn_captions_next_ns(captions) == 0);
     assert_non_null(run_at(1));
     assert_true(gn_captions_next_ns(captions) == INT64_MAX);
-    gn_captions_set(captions, GN_CAPTION_ERROR, "No scene", 2);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "No scene", 2);
     assert_true(gn_captions_next_ns(captions) == INT64_MAX); /* the same */
-    gn_captions_set(captions, GN_CAPTION_ERROR, NULL, 3);
+    gn_captions_set(captions, GN_CAPTION_TEXT, NULL, 3);
     assert_true(gn_captions_next_ns(captions) == 0);
     assert_null(run_at(4));
     assert_true(gn_captions_next_ns(captions) == INT64_MAX);
@@ -91,7 +92,7 @@ static void test_a_mode_named_again_starts_again(void **state) {
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft", 1901 * MS);
     assert_true(gn_captions_next_ns(captions) == 0);
     assert_true(run_at(1902 * MS)->alpha[GN_CAPTION_MODE] == 1.0f);
-    assert_true(gn_captions_next_ns(captions) == 3601 * MS);
+    assert_true(gn_captions_next_ns(captions) == 3501 * MS);
 }
 
 /* ---- where ---- */
@@ -104,6 +105,21 @@ static struct gn_caption_quad ground_of(const struct gn_caption_run *run,
     return (struct gn_caption_quad){0};
 }
 
+static void test_a_card_ends_and_a_mark_stays(void **state) {
+    (void)state;
+    gn_captions_set(captions, GN_CAPTION_CARD, "Wrong\nLine 3\nCorrect it", 0);
+    gn_captions_set(captions, GN_CAPTION_MARK, "!", 0);
+    const struct gn_caption_run *run = run_at(29500 * MS);
+    assert_true(run->alpha[GN_CAPTION_CARD] == 1.0f);
+    const struct gn_caption_quad mark = ground_of(run, GN_CAPTION_MARK);
+    assert_true(mark.x + mark.width <= WIDTH * 95 / 100 && mark.y >= HEIGHT * 5 / 100);
+    assert_in_range(mark.width, 2 * HEIGHT / 100, 3 * HEIGHT / 100);
+    assert_true(gn_captions_next_ns(captions) == 29600 * MS);
+    assert_true(run_at(30001 * MS)->alpha[GN_CAPTION_CARD] == 0.0f);
+    assert_true(run_at(30001 * MS)->alpha[GN_CAPTION_MARK] == 1.0f);
+    assert_true(gn_captions_next_ns(captions) == INT64_MAX);
+}
+
 static void test_a_mode_is_at_the_lower_left(void **state) {
     (void)state;
     gn_captions_set(captions, GN_CAPTION_MODE, "Hi", 0);
@@ -111,10 +127,10 @@ static void test_a_mode_is_at_the_lower_left(void **state) {
     assert_int_equal(run->quad_count, 3);
     const struct gn_caption_quad g = run->quads[0];
     assert_true(g.ground && !run->quads[1].ground && !run->quads[2].ground);
-    assert_int_equal(g.x, LINE);
-    assert_int_equal(g.width, 2 * GN_DOT_FONT_WIDTH * DOT + LINE);
-    assert_int_equal(g.height, LINE + LINE / 2);
-    assert_int_equal(g.y + g.height, HEIGHT - LINE);
+    assert_int_equal(g.x, WIDTH / 20 + 1);
+    assert_int_equal(g.width, 2 * GN_DOT_FONT_WIDTH * DOT + 2 * (LINE * 3 / 5));
+    assert_int_equal(g.height, LINE + 2 * (LINE * 7 / 20));
+    assert_int_equal(g.y + g.height, HEIGHT - HEIGHT / 20 - 1);
 }
 
 /* Dot by dot, as the font has them: H of 17 dots, i of 9. */
@@ -149,23 +165,23 @@ static bool overlap(struct gn_caption_quad a, struct gn_caption_quad b) {
 static void test_captions_do_not_cover_each_other(void **state) {
     (void)state;
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft", 0);
-    gn_captions_set(captions, GN_CAPTION_ERROR,
+    gn_captions_set(captions, GN_CAPTION_TEXT,
                     "kiosk.ini:3: an error that is longer than a line of this picture is", 0);
     gn_captions_set(captions, GN_CAPTION_INFO, "gnomon\nMode: Soft\nAddress: none", 0);
     const struct gn_caption_run *run = run_at(0);
     const struct gn_caption_quad mode = ground_of(run, GN_CAPTION_MODE),
-                                 error = ground_of(run, GN_CAPTION_ERROR),
+                                 error = ground_of(run, GN_CAPTION_TEXT),
                                  info = ground_of(run, GN_CAPTION_INFO);
     assert_false(overlap(mode, error) || overlap(mode, info) || overlap(error, info));
     assert_true(info.y < mode.y && mode.y < error.y);
-    assert_true(error.height > 2 * LINE); /* it is wrapped */
+    assert_true(error.height > 2 * 20); /* it is wrapped */
 }
 
 static void test_text_grows_with_the_picture(void **state) {
     (void)state;
     static const uint32_t sizes[][3] = {
         {640, 480, 20}, {1280, 720, 30}, {1920, 1080, 50}, {3840, 2160, 90}, {720, 1280, 30}};
-    gn_captions_set(captions, GN_CAPTION_ERROR, "Hi", 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "Hi", 0);
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         const struct gn_caption_run *run = gn_captions_run(captions, sizes[i][0], sizes[i][1], 0);
         assert_int_equal(run->width_px, sizes[i][0]);
@@ -179,7 +195,7 @@ static void test_no_text_is_no_run(void **state) {
     static const char *const texts[] = {"", " ", "\n\n", "\x01\x02", "\xe2\x80\x8b", " \t "};
     assert_null(run_at(0));
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        gn_captions_set(captions, GN_CAPTION_ERROR, texts[i], 0);
+        gn_captions_set(captions, GN_CAPTION_TEXT, texts[i], 0);
         assert_null(run_at(0));
     }
 }
@@ -204,7 +220,7 @@ static void test_unknown_characters_are_boxes(void **state) {
 static void test_frames_with_the_same_text_do_no_work(void **state) {
     (void)state;
     gn_captions_set(captions, GN_CAPTION_MODE, "Soft", 0);
-    gn_captions_set(captions, GN_CAPTION_ERROR, "kiosk.ini:3: no such mode", 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "kiosk.ini:3: no such mode", 0);
     const struct gn_caption_run *first = run_at(0);
     const uint64_t generation = first->atlas->generation;
     const uint32_t count = first->quad_count;
@@ -235,13 +251,13 @@ static void test_known_glyphs_are_not_made_again(void **state) {
 static void test_equal_atlases_have_equal_generations(void **state) {
     (void)state;
     struct gn_captions *other = gn_captions_create(&(struct gn_captions_opts){.font = ""});
-    gn_captions_set(captions, GN_CAPTION_ERROR, "one", 0);
-    gn_captions_set(other, GN_CAPTION_ERROR, "two", 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "one", 0);
+    gn_captions_set(other, GN_CAPTION_TEXT, "two", 0);
     const uint64_t a = run_at(0)->atlas->generation;
     assert_true(a != gn_captions_run(other, WIDTH, HEIGHT, 0)->atlas->generation);
     gn_captions_destroy(other);
     other = gn_captions_create(&(struct gn_captions_opts){.font = ""});
-    gn_captions_set(other, GN_CAPTION_ERROR, "one", 0);
+    gn_captions_set(other, GN_CAPTION_TEXT, "one", 0);
     assert_true(a == gn_captions_run(other, WIDTH, HEIGHT, 0)->atlas->generation);
     gn_captions_destroy(other);
 }
@@ -287,9 +303,9 @@ static void test_a_font_that_is_none_is_said_once(void **state) {
     captions = gn_captions_create(
         &(struct gn_captions_opts){.font = "/nowhere/x.ttf", .warnings = &warnings});
     assert_int_equal(warnings.count, 0); /* nobody has asked for text yet */
-    gn_captions_set(captions, GN_CAPTION_ERROR, "Hi", 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "Hi", 0);
     assert_int_equal(run_at(0)->quad_count, 3);
-    gn_captions_set(captions, GN_CAPTION_ERROR, "Ho", 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "Ho", 0);
     assert_int_equal(run_at(0)->quad_count, 3);
     assert_int_equal(warnings.count, 1);
     assert_non_null(strstr(warnings.text[0], "/nowhere/x.ttf"));
@@ -316,7 +332,7 @@ static void measure_bar(int32_t out[2]) {
 static void test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page(void **state) {
     (void)state;
     int32_t half[2], most[2];
-    gn_captions_set(captions, GN_CAPTION_ERROR, "loading a ..", 0);
+    gn_captions_set(captions, GN_CAPTION_TEXT, "loading a ..", 0);
     gn_captions_run(captions, 400, 300, 0);
     assert_true(gn_captions_next_ns(captions) == INT64_MAX);
     gn_captions_set_bar(captions, .5);
@@ -339,7 +355,8 @@ static void test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page(void **sta
 int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(test_a_mode_fades_and_is_gone_after_2_s),
-        TEST(test_what_is_wrong_stays),
+        TEST(test_what_stays_is_opaque),
+        TEST(test_a_card_ends_and_a_mark_stays),
         TEST(test_frames_are_asked_for_when_they_differ),
         TEST(test_what_stays_asks_for_one_frame),
         TEST(test_a_mode_named_again_starts_again),

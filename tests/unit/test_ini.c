@@ -375,7 +375,7 @@ static void a_kiosk_runs_on_without_its_bad_file(void **state) {
     write_file("bad.ini", "[render]\nmap = 64\nmap = 8\n");
     assert_true(PARSE("gnomon", "show", "--size", "8x8", "-c", (char *)in_folder("bad.ini")));
     assert_non_null(strstr(options.config_error, "bad.ini:3"));
-    assert_int_equal(options.settings->render.map_px, 1024);
+    assert_int_equal(options.settings->render.map_px, 64); /* the line alone */
     assert_int_equal(options.settings->render.size.width_px, 8);
     assert_int_equal(warnings.count, 1);
     assert_false(PARSE("gnomon", "-c", (char *)in_folder("bad.ini")));
@@ -385,6 +385,32 @@ static void a_kiosk_runs_on_without_its_bad_file(void **state) {
     write_file("bad.ini", "[mode \"A\"]\nlimit = nodes=1\n[mode \"B\"]\nwithout = wings\n");
     assert_true(PARSE("gnomon", "show", "-c", (char *)in_folder("bad.ini")));
     assert_non_null(strstr(options.config_error, "bad.ini:4: without: unknown capability"));
+}
+
+/* A name that is too long costs its mode, and a button that goes there keeps its other gestures. */
+static void a_wrong_mode_costs_that_mode(void **state) {
+    (void)state;
+    write_file("bad.ini",
+               "[render]\nmap = 64\n[mode \"a name of more than forty-eight characters, by far\"]\n"
+               "shadow = hard\n[mode \"B\"]\nshadow = none\nmpa = 1\n[mode \"C\"]\nshadow = hard\n"
+               "[button \"b\"]\nkeys = space\npress = next\nhold = mode A\n"
+               "[button \"c\"]\nkeys = x\n[button \"d\"]\nkeys = y\nclick = prev\n");
+    assert_true(PARSE("gnomon", "show", "-c", (char *)in_folder("bad.ini")));
+    assert_non_null(strstr(options.config_error, "bad.ini:3: a name of more than 48"));
+    assert_non_null(strstr(options.config_error, " (and 1 more)"));
+    assert_int_equal(options.settings->render.map_px, 64);
+    assert_int_equal(options.mode_count, 2);
+    assert_string_equal(options.modes[0].name, "B");
+    assert_int_equal(options.all[1].render.shadow.items[0], GN_TECHNIQUE_NONE);
+    assert_int_equal(options.buttons->count, 2); /* one does nothing */
+    assert_string_equal(options.buttons->items[1].opts.name, "d");
+    assert_int_equal(options.buttons->items[0].on[GN_GESTURE_PRESS].action.kind, GN_ACTION_NEXT);
+    assert_int_equal(warnings.count, 2);
+    write_file("bad.ini", "[button \"b\"]\nkeys = space\n"); /* none is left: those of a start */
+    assert_true(PARSE("gnomon", "show", "-c", (char *)in_folder("bad.ini")));
+    assert_null(options.buttons);
+    assert_non_null(options.config_error);
+    assert_false(PARSE("gnomon", "-c", (char *)in_folder("bad.ini"))); /* a desktop's command */
 }
 
 static void only_show_and_the_bare_command_search(void **state) {
@@ -442,6 +468,7 @@ int main(void) {
         cmocka_unit_test(there_are_so_many_lights),
         cmocka_unit_test(a_missing_file_is_a_runtime_error),
         cmocka_unit_test(a_kiosk_runs_on_without_its_bad_file),
+        cmocka_unit_test(a_wrong_mode_costs_that_mode),
         cmocka_unit_test(only_show_and_the_bare_command_search),
     };
     return cmocka_run_group_tests(tests, enter, leave);
