@@ -85,7 +85,9 @@ struct ray { /* hour line on the plate: start (the foot of the style) and direct
 static struct ray hour_ray(const struct gn_dial *dial, float hour) {
     float h = (hour - 12) * 15 * RADIANS;
     float angle = atan2f(sinf(dial->latitude * RADIANS) * sinf(h), cosf(h));
-    float side = hour > 12 ? 1 : -1; /* the eastern edge casts the shadow in the afternoon */
+    /* The eastern edge casts the outer shadow in the afternoon; while the sun is in the half of the
+     * sky at the pole, before 6 and after 18 h, it is the other one. */
+    float side = (hour > 12) == (cosf(h) > -1e-6f) ? 1 : -1;
     return (struct ray){{side * dial->thickness / 2, dial->centre}, {sinf(angle), -cosf(angle)}};
 }
 
