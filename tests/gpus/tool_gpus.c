@@ -251,8 +251,7 @@ static void try_slides(struct bench *b) {
 
 static bool lay_over(struct bench *b, const char *what) {
     struct gn_err err = {0};
-    if (!gn_gl_keep_prepare(b->gl, &err) || !gn_gl_keep(b->gl, &err))
-        return fail(b, what, err.text);
+    if (!gn_gl_keep(b->gl, &err)) return fail(b, what, err.text);
     gn_gl_lay_over(b->gl, 0.5f);
     return gn_gl_error_check(b->gl, what, &err) || fail(b, what, err.text);
 }
