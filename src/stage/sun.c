@@ -6,17 +6,11 @@
 #include <time.h>
 
 #include "core/clock.h"
-#include "core/hash.h"
 #include "core/sun.h"
 #include "environment/daylight.h"
 #include "options/date.h"
 #include "stage/lights.h"
-
-enum { THREADS = 2 };
-/* A sky is made for the middle of such a cell of the sun's places, and kept while the sun is in it;
- * its brightness is exact. */
-#define CELL_ALTITUDE_DEG 0.5
-#define CELL_AZIMUTH_DEG  2.0
+#include "stage/sky.h"
 
 /* ---- settings ---- */
 
@@ -94,65 +88,6 @@ bool gn_stage_sun_start(struct gn_frame_opts *opts, const struct gn_settings *se
     return true;
 }
 
-/* ---- the sky ---- */
-
-struct cell {
-    int altitude, azimuth;
-    double turbidity;
-    float north_deg;
-};
-
-/* Those of the modes of a process, and of a split screen's sides. */
-static struct sky {
-    bool made;
-    struct cell cell;
-    double base_strength, strength; /* of the light as it was made, as it is now */
-    uint64_t id;
-    struct gn_environment base, now;
-} skies[2];
-static int next_sky;
-
-static struct sky *find_sky(const struct cell *cell) {
-    for (int i = 0; i < 2; i++) {
-        const struct cell *c = &skies[i].cell;
-        if (skies[i].made && c->altitude == cell->altitude && c->azimuth == cell->azimuth &&
-            c->turbidity == cell->turbidity && c->north_deg == cell->north_deg)
-            return &skies[i];
-    }
-    struct gn_daylight daylight;
-    struct sky *sky = &skies[next_sky];
-    float to_sun[3];
-    next_sky = (next_sky + 1) % 2;
-    gn_daylight_build(cell->altitude * CELL_ALTITUDE_DEG, cell->turbidity, &daylight);
-    gn_sun_direction(cell->azimuth * CELL_AZIMUTH_DEG, fmax(daylight.altitude_deg, 0),
-                     (double)cell->north_deg, to_sun);
-    gn_environment_make_sky(&daylight, to_sun, THREADS, &sky->base);
-    sky->made = true;
-    sky->cell = *cell;
-    sky->base_strength = daylight.strength;
-    sky->strength = 0;
-    return sky;
-}
-
-static void set_sky(struct gn_frame_environment_opts *e, const struct gn_daylight *daylight,
-                    double azimuth_deg, float north_deg) {
-    const struct cell cell = {.altitude = (int)lround(daylight->altitude_deg / CELL_ALTITUDE_DEG),
-                              .azimuth = (int)lround(azimuth_deg / CELL_AZIMUTH_DEG),
-                              .turbidity = daylight->turbidity,
-                              .north_deg = north_deg};
-    struct sky *sky = find_sky(&cell);
-    if (sky->strength != daylight->strength) {
-        sky->strength = daylight->strength;
-        gn_environment_scale(&sky->base.whole, (float)(sky->strength / sky->base_strength),
-                             &sky->now.whole);
-        sky->id =
-            (gn_hash(GN_HASH_INIT, &sky->now.whole, sizeof sky->now.whole) | 4) & ~UINT64_C(3);
-    }
-    e->of = &sky->now;
-    e->id = sky->id;
-    e->lights_key = e->shows_key = e->reflected_only = false;
-}
-
 /* ---- the moment ---- */
 
 static bool aim_sun(struct gn_pose *pose, struct gn_frame_opts *opts,
@@ -160,6 +95,8 @@ static bool aim_sun(struct gn_pose *pose, struct gn_frame_opts *opts,
     const struct gn_sun_settings *s = &settings->sun;
     const int light = gn_stage_sun_is_set(settings) ? gn_stage_sun_light(pose->scene) : -1;
     const float north_deg = pose->scene->environment.north_deg;
+    const bool is_shown =
+        settings->run.command == GN_COMMAND_SHOW || settings->run.command == GN_COMMAND_AUTO;
     struct gn_place place;
     struct gn_sun_view view = {.azimuth_deg = 180, .altitude_deg = 45};
     struct gn_daylight daylight;
@@ -179,7 +116,7 @@ static bool aim_sun(struct gn_pose *pose, struct gn_frame_opts *opts,
         memcpy(entry->color, daylight.sun, sizeof entry->color);
     }
     if (opts->environment.is_sky)
-        set_sky(&opts->environment, &daylight, view.azimuth_deg, north_deg);
+        gn_stage_sky_set(&opts->environment, &daylight, view.azimuth_deg, north_deg, is_shown);
     return true;
 }
 

@@ -27,9 +27,8 @@ bool gn_stage_sun_start(struct gn_frame_opts *opts, const struct gn_settings *se
                         const struct gn_scene *scene, struct gn_warnings *warnings,
                         struct gn_err *err);
 /* After each change of the pose or of opts->view.sun_utc_s: the light's direction and colour, and
- * the sky where the environment is automatic. Making another sky takes a tenth of a second and
- * more, once in some minutes of the sun's time; for one thread. Without [sun], or such a light:
- * gn_stage_aim().
+ * the sky (sky.h) where the environment is automatic; for one thread. Without [sun], or such a
+ * light: gn_stage_aim().
  */
 void gn_stage_aim_lights(struct gn_pose *pose, struct gn_frame_opts *opts,
                          const struct gn_settings *settings);

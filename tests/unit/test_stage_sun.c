@@ -1,6 +1,7 @@
 /* [sun]: which light becomes the sun, where it stands, and what it shines with. */
 #include <math.h>
 #include <string.h>
+#include <time.h>
 
 #include "core/sun.h"
 #include "options/args.h"
@@ -40,8 +41,8 @@ static void make_scene(const char *lights, int count, const char *extras) {
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
 }
 
-static bool try_look(int argc, const char *const *flags) {
-    char *argv[12] = {"gnomon", "render"};
+static bool try_command(char *command, int argc, const char *const *flags) {
+    char *argv[12] = {"gnomon", command};
     for (int i = 0; i < argc; i++) argv[2 + i] = (char *)flags[i];
     gn_options_finish(&options);
     err = (struct gn_err){0};
@@ -49,8 +50,8 @@ static bool try_look(int argc, const char *const *flags) {
     return gn_stage_look_build(&look, options.settings, scene, &warnings, &err);
 }
 #define LOOK(...)                                                                                  \
-    try_look((int)(sizeof(const char *[]){__VA_ARGS__} / sizeof(char *)),                          \
-             (const char *[]){__VA_ARGS__})
+    try_command("render", (int)(sizeof(const char *[]){__VA_ARGS__} / sizeof(char *)),             \
+                (const char *[]){__VA_ARGS__})
 
 static void aim(void) { gn_stage_aim_lights(&pose, &look.frame_opts, options.settings); }
 
@@ -147,6 +148,34 @@ static void the_sun_that_has_set_gives_no_light_and_the_sky_some(void **state) {
     assert_true(look.frame_opts.environment.id != id);
 }
 
+/* A kiosk keeps the sky that it has while a thread makes that of the sun's next place; one that is
+ * far away is made at once, and so is each of `render`. */
+static void a_kiosk_waits_for_no_sky_that_is_near(void **state) {
+    (void)state;
+    const struct gn_frame_environment_opts *e = &look.frame_opts.environment;
+    make_scene(NULL, 0, NULL);
+    assert_true(try_command("show", 2, (const char *const[]){"--sun-altitude", "20"}));
+    aim();
+    const struct gn_environment *first = e->of;
+    assert_true(try_command("show", 2, (const char *const[]){"--sun-altitude", "21"}));
+    aim();
+    assert_ptr_equal(e->of, first);
+    for (int i = 0; i < 1000 && e->of == first; i++) {
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+        aim();
+    }
+    assert_ptr_not_equal(e->of, first);
+    const uint64_t id = e->id;
+    assert_true(LOOK("--sun-altitude", "40"));
+    assert_true(LOOK("--sun-altitude", "21"));
+    aim();
+    assert_int_equal(e->id, id); /* the same picture */
+    first = e->of;
+    assert_true(try_command("show", 2, (const char *const[]){"--sun-altitude", "50"}));
+    aim();
+    assert_ptr_not_equal(e->of, first);
+}
+
 static void an_environment_that_is_named_stays(void **state) {
     (void)state;
     make_scene(NULL, 0, NULL);
@@ -183,6 +212,7 @@ int main(void) {
         cmocka_unit_test(the_light_stands_where_the_sun_does),
         cmocka_unit_test(azimuth_and_altitude_are_by_hand_and_north_is_the_scenes),
         cmocka_unit_test(the_sun_that_has_set_gives_no_light_and_the_sky_some),
+        cmocka_unit_test(a_kiosk_waits_for_no_sky_that_is_near),
         cmocka_unit_test(an_environment_that_is_named_stays),
         cmocka_unit_test(without_the_section_nothing_is_set),
         cmocka_unit_test(a_wrong_time_zone_is_a_usage_error),
