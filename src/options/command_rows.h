@@ -39,7 +39,7 @@ GN_COMMAND(LESSON, lesson, .name = "lesson", .usage = "lesson [OPTION..] list|NA
 GN_COMMAND(BAKE, bake, .name = "bake", .usage = "bake [OPTION..] SCENE -o FILE.glb", .what = "writes a scene as one small .glb that boards load and draw fast",
            .examples = {"gnomon bake scene.glb -o board.glb", "gnomon bake scan.obj -o board.glb --simplify 0.25 --texture-limit 1024"},
            .least = 1, .most = 1, .expects = "one scene", .takes = "only one scene")
-GN_COMMAND(DIAL, dial, .name = "dial", .usage = "dial [OPTION..] --latitude DEG -o FILE", .what = "writes a sundial for a place: .glb a scene, .svg a pattern in millimetres, 1:1",
+GN_COMMAND(DIAL, dial, .name = "dial", .usage = "dial [OPTION..] --latitude DEG -o FILE", .what = "writes a sundial for a place: a .glb, or a pattern in .svg",
            .examples = {"gnomon dial --latitude 52.5 -o dial.glb", "gnomon dial --latitude 48.1 --kind vertical --declination 20 -o wall.svg"},
            .words = GN_WORDS_FILES, .most = 0, .takes = "it takes no scene")
 GN_COMMAND(TAKE, take, .name = "take", .usage = "take [OPTION..] [FOLDER]", .what = "takes the folder gnomon of a USB stick over, for a kiosk that has [kiosk] content",

@@ -10,8 +10,7 @@ const struct gn_topic gn_topics[] = {
     {"scenes", "making scenes: export, lights, cameras, materials, what it costs", "SCENES.md"},
     {"techniques", "techniques of shadows: which to take, what each costs, how wrong it is",
      "src/shadow/README.md"},
-    {"report", "when something is wrong: what doctor --report writes, and where to send it",
-     "board/report.md"},
+    {"report", "what doctor --report writes, and where to send it", "board/report.md"},
     {0},
 };
 

@@ -81,11 +81,13 @@ void gn_fitter_set_code(const struct gn_fitter *f, float near_depth, float far_d
     }
 }
 
-/* Behind the blockers of a lamp without a width are no cones, so nothing would be in shadow. One
- * texel at the far end of the map is less than the least filter. */
+/* Behind the blockers of a lamp without a width are no cones, so nothing would be in shadow. They
+ * are as wide at the far end of the map as this share of a texel, where taps alone decide. */
+#define LEAST_CONE (1.0f / 256.0f)
+
 static void widen_cones(struct gn_shadow_view *view) {
-    if (gn_techniques[view->technique].filter == GN_FILTER_CONE)
-        view->penumbra.radius = most(view->penumbra.radius, 1.0f / view->penumbra.scale);
+    if (gn_techniques[view->technique].filter == GN_FILTER_CONE && view->penumbra.radius == 0.0f)
+        view->penumbra.radius = LEAST_CONE / view->penumbra.scale;
 }
 
 /* Similar triangles (Fernando, "Percentage-Closer Soft Shadows", 2005): in plane units a blocker at
