@@ -129,7 +129,7 @@ void gn_daylight_build(double altitude_deg, double turbidity, struct gn_daylight
     for (int k = 0; k < 3; k++) level[k] = sun[k] * rise + sky[k] * dark;
     const double luminance = 0.2126 * level[0] + 0.7152 * level[1] + 0.0722 * level[2];
     const double share = fmin(luminance / HIGH_SUN, 1);
-    const double screen = fmax(cbrt(share), GN_DAYLIGHT_FLOOR) / share;
+    const double screen = fmax(pow(share, 1.0 / 3), GN_DAYLIGHT_FLOOR) / share;
     *out = (struct gn_daylight){altitude_deg, turbidity, .strength = dark * screen};
     for (int k = 0; k < 3; k++) {
         out->sun[k] = (float)(sun[k] * screen);
