@@ -1,7 +1,7 @@
 #!/bin/sh
 # accept_terminal.sh [OUT.png]: the kiosk with the default scene in a terminal, where somebody types: the
-# space bar goes through all modes, in their order, and ^C ends it. Its screenshots of them become one
-# sheet, OUT.png, which `make contact-sheet` leaves to be looked at.
+# space bar goes through modes of all techniques, in their order, and ^C ends it. Its screenshots of them
+# become one sheet, OUT.png, which `make contact-sheet` leaves to be looked at.
 set -u
 build=${BUILD:-build/release}
 gnomon=$(realpath "${GNOMON:-build/release/gnomon}")
@@ -31,6 +31,10 @@ until_is() {
 }
 
 printf '[kiosk]\ncaption_seconds = 60\n' > "$folder/kiosk.ini"
+techniques=$("$gnomon" help show | tr '\n' ' ' | sed -n 's/.*One of: \(none, [a-z0-9, ]*\).*/\1/p' | tr -d ,)
+for technique in $techniques; do
+    printf '[mode "%s"]\nshadow = %s\n' "$technique" "$technique"
+done >> "$folder/kiosk.ini"
 tmux new-session -d -s kiosk -x 100 -y 30 \
     "'$gnomon' show -v --backend egl --size 480x270 --no-animation -c '$folder/kiosk.ini' --socket '$folder/ctl'; echo \"ended with \$?\"; cat"
 until_is waits no
@@ -40,6 +44,7 @@ until_is mode "${modes##* }"
 until_is waits no
 tmux send-keys -t kiosk Space
 set --
+[ "$(echo "$modes" | wc -w)" -gt 10 ] || fail "modes: $modes"
 for mode in $modes; do
     until_is mode "$mode"
     until_is waits no
