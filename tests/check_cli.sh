@@ -40,6 +40,7 @@ expect 0 '/nowhere/x.ttf: cannot open' render --size 64x64 --caption Hi --font /
 expect 0 '' render --size 64x64 --font /nowhere/x.ttf -o "$folder/plain.png" # nobody needs it
 cmp -s "$folder/note.png" "$folder/plain.png" && complain 'a caption that is not in the picture'
 expect 0 'warning: shadow maps exceed the limit maps_mb=1: tiles of up to' render --size 64x64 --limit maps_mb=1 -o "$folder/plain.png"
+expect 0 'warning: no light has soft shadows, so nothing is gathered' render --size 64x64 --shadow hard --gather always -o "$folder/plain.png"
 expect 0 '' inspect --for pi4 --size 640x360
 grep -q '^Time on Raspberry Pi 4.* at 640x360 with 4 samples' "$folder/out" || complain 'inspect: the time on a board'
 # a triangle on an unseen floor, which reads the texel of its shadow

@@ -96,6 +96,9 @@ void gn_stage_gather(struct gn_stage *stage, struct gn_view *view, int64_t time_
     } else if (soft) {
         gn_warn(warnings, "this picture cannot be gathered: soft shadows are as the technique has "
                           "them; see --gather");
+    } else {
+        gn_warn(warnings, "no light has soft shadows, so nothing is gathered: choose a technique "
+                          "that has them, as --shadow cone, and a light with gnomon_radius");
     }
     gn_view_stop(&still);
     free(aside);
