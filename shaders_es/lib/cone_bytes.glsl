@@ -17,7 +17,8 @@ vec2 cone_fetch(MOMENTS_SAMPLER cones, ivec2 texel) {
 }
 
 // As in lib/cone_16f.glsl.
-vec2 cone_at(MOMENTS_SAMPLER cones, vec2 uv, vec4 size) {
+vec2 cone_at(MOMENTS_SAMPLER cones, vec2 uv) {
+    vec2 size = vec2(textureSize(cones, 0));
     ivec4 at = cone_corners(uv, size);
     return cone_mix(cone_fetch(cones, at.xy), cone_fetch(cones, at.zy), cone_fetch(cones, at.xw), cone_fetch(cones, at.zw), uv, size);
 }

@@ -31,7 +31,7 @@ vec2 cone_aslant(vec2 v, shadow_place s) { return v + s.aslant * dot(s.tangent, 
 float shadow_visibility(MAP_SAMPLER map, MOMENTS_SAMPLER cones, shadow_place s) {
     float k = s.penumbra.PENUMBRA_RADIUS * s.penumbra.PENUMBRA_SCALE;
     float depth = k * s.at.z - k;
-    vec2 cone = cone_at(cones, s.at.xy, s.size), pixel = dFdx(s.at.xy) * s.size.xy;
+    vec2 cone = cone_at(cones, s.at.xy), pixel = dFdx(s.at.xy) * s.size.xy;
     // Of shadow_mixed(), which takes means itself, all pixels are alike.
     vec2 pair = s.beside == vec2(0.0) ? fract(0.5 * gl_FragCoord.xy) : vec2(0.5);
     float inside = depth - cone.x, seen = 1.0, most = 0.0;

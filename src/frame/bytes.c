@@ -54,6 +54,7 @@ static uint64_t bytes_of(const struct gn_map_need *needs, uint32_t count) {
                 gn_techniques[other->technique].filter == gn_techniques[need->technique].filter &&
                 other->map.width_px == need->map.width_px &&
                 other->map.height_px == need->map.height_px &&
+                other->map.cell_px == need->map.cell_px &&
                 other->map.tile_count == need->map.tile_count)
                 steps = 0; /* the two use the same textures between the steps */
             if (other->paged && need->paged && other->encoding == need->encoding &&
@@ -103,6 +104,8 @@ static void set_size(enum gn_light_type type, const struct gn_shadow_opts *opts,
                                        .tile_count =
                                            cascades ? (opts->cascades > 2 ? 4 : 2)
                                                     : gn_shadow_tile_count(type, opts->technique)};
+    need->map.cell_px = gn_technique_cell_px(opts->technique, opts->map_px,
+                                             opts->moves && need->map.tile_count == 1);
 }
 
 void gn_frame_shrink_maps(struct gn_frame *frame, uint64_t most_bytes, struct gn_shadow_opts *maps,

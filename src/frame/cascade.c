@@ -273,6 +273,7 @@ void gn_frame_choose_map(struct gn_frame *frame, const struct gn_pose *pose,
                                     : scene->cameras[frame_opts->view.camera].node];
     v.moves |= !from && pose->cameras != scene->cameras; /* it zooms, too */
     const bool on_plane = gn_techniques[opts->technique].on_plane;
+    opts->moves = !v.stands;
     if (!gn_cascade_can(light, &frame->eye, opts)) opts->cascades = 1;
     if (opts->encoding == GN_ENCODING_STENCIL) return;
     if (!on_plane &&

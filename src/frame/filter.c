@@ -39,13 +39,12 @@ static float cone_growth(const struct gn_shadow_view *view, uint32_t tile) {
 }
 
 /* How far the first flooding step reads, so that all together reach as far as the widest penumbra:
- * texels of the cone map, two of the map each. The steps that are left out are pairs: the last one
- * fills the light's own texture. */
+ * texels of the cone map. */
 static uint32_t first_reach_px(const struct gn_shadow_view *view) {
     const float widest =
         view->lookup.reach_px > 0.0f ? view->lookup.reach_px : view->penumbra.widest_px;
     uint32_t px = 2;
-    while (px < 128 && (float)(4 * px - 4) < widest) px *= 4;
+    while (px < 128 && (float)((2 * px - 2) * view->map.cell_px) < widest) px *= 2;
     return px;
 }
 
@@ -65,20 +64,16 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile) 
         h = gn_hash(h, &view->floor.ambient, 2 * sizeof view->floor.ambient);
     }
     if (gn_techniques[view->technique].filter == GN_FILTER_CONE) {
-        const float cone[] = {cone_growth(view, tile), (float)first_reach_px(view)};
+        const float cone[] = {cone_growth(view, tile), (float)first_reach_px(view),
+                              (float)view->map.cell_px};
         h = gn_hash(h, cone, sizeof cone);
     }
     return h ? h : 1;
 }
 
-/* Texels of the map that one of its filter's textures covers, along a side. */
-static uint32_t texels_per_side(enum gn_technique technique) {
-    return gn_filters[gn_techniques[technique].filter].halves ? 2 : 1;
-}
-
 /* In the filter's textures. */
 static struct gn_rect tile_rect(const struct gn_shadow_view *view, uint32_t tile) {
-    const uint32_t each = texels_per_side(view->technique);
+    const uint32_t each = view->map.cell_px;
     return (struct gn_rect){view->raster.tiles[tile].x_px / each,
                             view->raster.tiles[tile].y_px / each, view->map.tile_px / each,
                             view->map.tile_px / each};
@@ -98,9 +93,8 @@ static bool is_narrow(enum gn_technique technique, uint32_t texture) {
 void gn_frame_filter_size(enum gn_technique technique, const struct gn_shadow_map *map,
                           uint32_t texture, uint32_t size_px[2]) {
     const bool narrow = is_narrow(technique, texture);
-    const uint32_t each = texels_per_side(technique);
-    size_px[0] = narrow ? map->tile_count * blocks_of(map) : map->width_px / each;
-    size_px[1] = narrow ? map->tile_px : map->height_px / each;
+    size_px[0] = narrow ? map->tile_count * blocks_of(map) : map->width_px / map->cell_px;
+    size_px[1] = narrow ? map->tile_px : map->height_px / map->cell_px;
 }
 
 void gn_view_filtered_size(const struct gn_shadow_view *view, uint32_t size_px[2]) {
@@ -145,6 +139,7 @@ static void filter_constants(const struct gn_shadow_view *view, uint32_t tile,
     code_transform(view, tile, c[FILTER_CODE]);
     c[FILTER_CONE][0] = cone_growth(view, tile);
     c[FILTER_CONE][1] = (float)stage->reach_px;
+    c[FILTER_CONE][2] = (float)view->map.cell_px;
     if (view->technique == GN_TECHNIQUE_FLOOR) floor_constants(view, c);
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
@@ -159,10 +154,27 @@ _Static_assert(PASS_CODE_ADD < CONSTANTS_AT &&
                    CONSTANTS_AT + GN_FILTER_STAGES_MAX * FILTER_CONSTANTS <= GN_PASS_SIZE,
                "room for the constants of a filter");
 
+/* A stage as this view runs it. Flooding alternates between two textures and ends in the light's
+ * own one: after an odd number of steps the stages before them have to change places. */
+static struct gn_filter_stage stage_of(const struct gn_shadow_view *view, uint32_t index) {
+    const struct gn_filter_row *filter = gn_technique_filter(view->technique, view->moments);
+    struct gn_filter_stage stage = filter->stages[index];
+    if (stage.step == GN_STEP_CONE_SEEDS && view->map.cell_px > 2)
+        stage.step = view->map.cell_px > 4 ? GN_STEP_CONE_SEEDS_8 : GN_STEP_CONE_SEEDS_4;
+    bool odd = false;
+    for (uint32_t i = 0; i < filter->count; i++)
+        odd ^= filter->stages[i].reach_px > 0 && filter->stages[i].reach_px <= first_reach_px(view);
+    if (odd && stage.reach_px == 0) {
+        stage.to ^= 1;
+        if (stage.from[0] >= 0) stage.from[0] ^= 1;
+    }
+    return stage;
+}
+
 static void add_stage_pass(struct gn_frame *frame, uint32_t slot, uint32_t tile, uint32_t index) {
     const struct gn_shadow_view *view = &frame->shadows[slot];
     const struct gn_filter_row *filter = gn_technique_filter(view->technique, view->moments);
-    const struct gn_filter_stage *stage = &filter->stages[index];
+    const struct gn_filter_stage its = stage_of(view, index), *stage = &its;
     struct gn_program_key key = gn_key_of(GN_PROGRAM_FILTER);
     key.step = (uint8_t)stage->step;
     key.moments = (uint8_t)gn_moments_of_programs(view->moments);

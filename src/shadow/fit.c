@@ -123,6 +123,9 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
                                         .height_px = size_px[1],
                                         .tile_count = gn_shadow_tile_count(type, opts->technique)}};
     set_filter(opts, view);
+    view->map.cell_px =
+        gn_technique_cell_px(opts->technique, opts->map_px,
+                             opts->moves && opts->cascades <= 1 && view->map.tile_count == 1);
     if (row->filter == GN_FILTER_TABLE) view->lookup.reach_px = GN_TABLE_REACH_PX;
     if (opts->cascades > 1 && !view->perspective && !row->on_plane)
         gn_cascades_lay(opts->cascades, view);

@@ -40,6 +40,7 @@ struct gn_shadow_opts {
     bool but_floor;              /* the unseen floor does not receive from this map */
     bool fixed; /* the same map for every eye: of all that casts and receives, seen or not. Not of
                    cascades, nor on a plane, where `whole` says so */
+    bool moves; /* the light, or what casts: the map is drawn and filtered in each frame */
     struct gn_light_opts light; /* what holds for the light; what is not given is the scene's, or
                                    the technique's. The fields above are already chosen by it */
     uint32_t cascades; /* directional, not on a plane: of as many tiles; 0, 1: one map. More than
@@ -101,6 +102,7 @@ struct gn_shadow_map {
     uint32_t cascade_count;       /* 0, or 2 to 4 */
     uint32_t gutter_px;           /* point, cascades: of a tile, to each side */
     uint32_t inner_px;            /* cascades: of a tile, without its gutters */
+    uint32_t cell_px; /* along a side, texels of the map per texel of its filter's textures */
 };
 
 /* How the encoding keeps a distance d: code = scale * d + offset (but not DEPTH, see lookup). */

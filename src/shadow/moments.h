@@ -52,7 +52,9 @@ enum gn_filter_step {
     GN_STEP_TABLE_COLUMNS,
     GN_STEP_TABLE_COLUMN_SUMS,
     GN_STEP_TABLE_ADD,
-    GN_STEP_CONE_SEEDS, /* of codes */
+    GN_STEP_CONE_SEEDS, /* of codes, two by two; the others four by four, eight by eight */
+    GN_STEP_CONE_SEEDS_4,
+    GN_STEP_CONE_SEEDS_8,
     GN_STEP_CONE_EDGES,
     GN_STEP_CONE_FLOOD,
     GN_STEP_FLOOR, /* of codes, and a texture */
@@ -88,7 +90,7 @@ struct gn_filter_stage {
 struct gn_filter_row {
     uint32_t count;
     uint32_t narrow; /* the number of a texture that holds sums of blocks alone; 0: there is none */
-    bool halves;     /* textures have a texel for two by two of the map */
+    bool halves;     /* textures have a texel for two by two of the map, or more */
     struct gn_filter_stage stages[GN_FILTER_STAGES_MAX];
 };
 extern const struct gn_filter_row gn_filters[GN_FILTER_COUNT];

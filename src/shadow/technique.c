@@ -2,6 +2,11 @@
 
 #include <string.h>
 
+enum {
+    CELL_MOST_PX = 8,
+    MOVING_CONES_PX = 256, /* side of a cone map that is made in each frame */
+};
+
 #define ROW(id, ...) [GN_TECHNIQUE_##id] = {__VA_ARGS__},
 const struct gn_technique_row gn_techniques[GN_TECHNIQUE_ALL] = {
 #include "shadow/technique_rows.h"
@@ -54,6 +59,15 @@ void gn_techniques_by_rank(enum gn_technique out[GN_TECHNIQUE_COUNT]) {
 
 uint32_t gn_technique_map_px(enum gn_technique technique, uint32_t px) {
     return gn_filters[gn_techniques[technique].filter].halves ? px & ~1u : px;
+}
+
+uint32_t gn_technique_cell_px(enum gn_technique technique, uint32_t map_px,
+                              bool moves_in_one_tile) {
+    uint32_t px = gn_filters[gn_techniques[technique].filter].halves ? 2 : 1;
+    if (px == 1 || !moves_in_one_tile) return px;
+    while (px < CELL_MOST_PX && map_px % (2 * px) == 0 && map_px >= 2 * px * MOVING_CONES_PX)
+        px *= 2;
+    return px;
 }
 
 bool gn_technique_find(const char *name, size_t length, enum gn_technique *out) {

@@ -75,6 +75,40 @@ static void test_cones_reach_as_far_as_the_light_is_large(void **state) {
     gn_plan_end(&f);
 }
 
+static uint32_t width_of_cones(const struct gn_plan *plan) {
+    const struct gn_pass *last = NULL;
+    for (uint32_t i = 0; i < plan->pass_count; i++)
+        if (plan->passes[i].target.kind == GN_TARGET_MOMENTS) last = &plan->passes[i];
+    assert_non_null(last);
+    assert_int_equal(last->target.index, 0); /* the light's own, after any number of steps */
+    assert_null(gn_plan_check(plan));
+    return last->target.width_px;
+}
+
+/* Where things move cones are made in each frame. A point light's have six tiles. */
+static void test_cone_maps_are_smaller_where_things_move(void **state) {
+    (void)state;
+    struct gn_plan_fixture f;
+    gn_plan_begin(&f, GN_EVERY_CAP);
+    choose(&f, GN_TECHNIQUE_CONE);
+    f.opts.shadow.cascades = 1;
+    f.scene->light_count = 1;
+    for (uint32_t px = 256; px <= 2048; px *= 2) {
+        GN_LIGHT_SET(&f.opts.shadow.any, map_px, px);
+        assert_int_equal(width_of_cones(gn_plan_make(&f)), px < 512 ? px / 2 : 256);
+    }
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 1028); /* no block of eight fits */
+    assert_int_equal(width_of_cones(gn_plan_make(&f)), 257);
+    for (float radius = 0.001f; radius < 1.0f; radius *= 2) {
+        f.scene->lights[0].radius = radius;
+        width_of_cones(gn_plan_make(&f));
+    }
+    GN_LIGHT_SET(&f.opts.shadow.any, map_px, 1024);
+    for (uint32_t i = 0; i < f.scene->item_count; i++) f.pose.items[i].moves = false;
+    assert_int_equal(width_of_cones(gn_plan_make(&f)), 512);
+    gn_plan_end(&f);
+}
+
 static uint64_t hash_of_all(const struct gn_plan *plan) {
     uint64_t hash = GN_HASH_INIT;
     for (uint32_t i = 0; i < plan->pass_count; i++) {
@@ -188,6 +222,7 @@ int main(void) {
         cmocka_unit_test(test_cone_plan),
         cmocka_unit_test(test_cone_maps_have_even_sizes),
         cmocka_unit_test(test_cones_reach_as_far_as_the_light_is_large),
+        cmocka_unit_test(test_cone_maps_are_smaller_where_things_move),
         cmocka_unit_test(test_cones_are_made_again_where_a_caster_moves),
         cmocka_unit_test(test_a_camera_that_sees_nothing_gets_a_valid_plan),
         cmocka_unit_test(test_filters_change_with_their_map_and_technique_alone),

@@ -1,0 +1,2 @@
+#define SIDE 4
+#include "lib/cone_seeds.glsl"

@@ -1,0 +1,2 @@
+#define SIDE 8
+#include "lib/cone_seeds.glsl"
