@@ -30,9 +30,10 @@ struct gn_fit {
 };
 
 /* Takes step after step until the goal is met, but none that saves less than a two-hundredth of
- * the frame; then gives back, beginning with the last, each that is not needed for the goal, or
- * that changes nothing once later ones are taken. Where all steps do not suffice the result is
- * what they reach together. The same set is measured once. */
+ * the frame, and drops earlier ones that save nothing beside it; then gives back, beginning with
+ * the last, each that is not needed for the goal, or that changes nothing once later ones are
+ * taken. Where all steps do not suffice the result is what they reach together. The same set is
+ * measured once. */
 bool gn_fit_search(struct gn_fit *fit, struct gn_err *err);
 
 #endif

@@ -13,7 +13,7 @@ struct known { /* what has been measured */
 struct search {
     struct gn_fit *fit;
     struct known *known;
-    int count;
+    int count, room;
     struct gn_err *err;
 };
 
@@ -24,7 +24,27 @@ static bool measure(struct search *s, gn_fit_set taken, double *ms) {
             return true;
         }
     if (!s->fit->measure(s->fit->user, taken, ms, s->err)) return false;
+    if (s->count == s->room) {
+        s->room = 2 * s->room + 32;
+        s->known = gn_xrealloc(s->known, (size_t)s->room, sizeof *s->known);
+    }
     s->known[s->count++] = (struct known){taken, *ms};
+    return true;
+}
+
+/* What saved time beside an earlier choice may cost time beside a later one: small maps, which get
+ * cascades, where a technique is cheap. */
+static bool drop_useless(struct search *s, int upto) {
+    struct gn_fit *fit = s->fit;
+    for (int i = 0; i < upto; i++) {
+        const gn_fit_set without = fit->taken & ~((gn_fit_set)1 << i);
+        double ms;
+        if (without == fit->taken) continue;
+        if (!measure(s, without, &ms)) return false;
+        if (ms > fit->ms * (1 + ALIKE)) continue;
+        fit->taken = without;
+        fit->ms = ms;
+    }
     return true;
 }
 
@@ -37,6 +57,7 @@ static bool give_up(struct search *s) {
         if (ms > fit->ms * (1 - LEAST_SAVING)) continue;
         fit->taken = with;
         fit->ms = ms;
+        if (!drop_useless(s, i)) return false;
     }
     return true;
 }
@@ -69,7 +90,6 @@ static bool weigh_steps(struct search *s) {
 
 bool gn_fit_search(struct gn_fit *fit, struct gn_err *err) {
     struct search s = {.fit = fit, .err = err};
-    s.known = gn_xalloc(1 + 3 * GN_FIT_STEPS_MAX, sizeof *s.known);
     fit->taken = 0;
     bool ok = measure(&s, 0, &fit->best_ms);
     fit->ms = fit->best_ms;

@@ -52,6 +52,21 @@ static void test_what_a_later_step_makes_needless_is_given_back(void **state) {
     assert_true(fit.is_met && fit.taken == 1 << 5 && fit.ms == 1);
 }
 
+/* Step 0 saves 2 of 20, but costs 5 beside step 1, which saves 8; 2 saves 12. */
+static bool measure_pair(void *user, gn_fit_set taken, double *ms, struct gn_err *why) {
+    (void)user, (void)why;
+    *ms = taken & 2 ? 12 + (taken & 1) * 5 : 20 - (taken & 1) * 2;
+    if (taken & 4) *ms = 8;
+    return true;
+}
+
+static void test_what_a_later_step_makes_dear_is_dropped_at_once(void **state) {
+    (void)state;
+    struct gn_fit fit = {.count = 3, .goal_ms = 12.5, .measure = measure_pair};
+    assert_true(gn_fit_search(&fit, &err));
+    assert_true(fit.is_met && fit.taken == 2 && fit.ms == 12);
+}
+
 static void test_what_saves_nothing_is_not_taken(void **state) {
     (void)state;
     const struct gn_fit fit = search(13.5);
@@ -88,6 +103,7 @@ int main(void) {
         cmocka_unit_test(test_the_best_picture_loses_nothing),
         cmocka_unit_test(test_steps_are_taken_in_their_order),
         cmocka_unit_test(test_what_a_later_step_makes_needless_is_given_back),
+        cmocka_unit_test(test_what_a_later_step_makes_dear_is_dropped_at_once),
         cmocka_unit_test(test_what_saves_nothing_is_not_taken),
         cmocka_unit_test(test_a_goal_out_of_reach_gives_what_is_nearest),
         cmocka_unit_test(test_each_set_is_measured_once),
