@@ -103,8 +103,8 @@ bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct g
     return gn_file_read_fd(open_to_read(path), path, limit, out, err);
 }
 
-bool gn_file_read_seen(const char *path, size_t limit, atomic_uint *permille, unsigned whole,
-                       struct gn_bytes *out, struct gn_err *err) {
+bool gn_file_read_progress(const char *path, size_t limit, atomic_uint *permille, unsigned whole,
+                           struct gn_bytes *out, struct gn_err *err) {
     const struct progress progress = {permille, whole};
     return read_regular(open_to_read(path), path, limit, permille ? &progress : NULL, out, err);
 }

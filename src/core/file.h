@@ -26,8 +26,8 @@ static inline uint32_t gn_u32_at(const uint8_t *p) {
 bool gn_file_read(const char *path, size_t limit, struct gn_bytes *out, struct gn_err *err);
 /* The same, and while it reads the share that is read goes into *permille, from 0 to `whole`, for
  * another thread to see. */
-bool gn_file_read_seen(const char *path, size_t limit, atomic_uint *permille, unsigned whole,
-                       struct gn_bytes *out, struct gn_err *err);
+bool gn_file_read_progress(const char *path, size_t limit, atomic_uint *permille, unsigned whole,
+                           struct gn_bytes *out, struct gn_err *err);
 /* Opens a file that a model names, of its folder or below, so that its first bytes can be looked at
  * before it is read; -1 with the reason if there is none, if it is no regular file, or if the path
  * or a link leads outside; see gn_open_beneath(). */

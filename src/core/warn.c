@@ -14,6 +14,12 @@ void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
     va_end(args);
     for (int i = 0; i < warnings->count; i++)
         if (strcmp(warnings->text[i], text) == 0) return;
+    if (warnings->count == GN_WARN_MAX && warnings->printed > 0) {
+        warnings->count--;
+        warnings->printed--;
+        memmove(warnings->text[0], warnings->text[1],
+                (size_t)warnings->count * sizeof warnings->text[0]);
+    }
     if (warnings->count == GN_WARN_MAX)
         warnings->dropped++;
     else

@@ -1,6 +1,7 @@
 /* Warnings: problems that stop nothing. They are collected and printed by main() at the end, on
  * success or with -v; by a kiosk, which runs for months, as they come. The size is fixed, so that a
- * hostile file cannot make it grow; equal texts are kept once. */
+ * hostile file cannot make it grow: of those that are printed the oldest makes room. Equal texts
+ * are kept once. */
 #ifndef GN_CORE_WARN_H
 #define GN_CORE_WARN_H
 
@@ -10,7 +11,7 @@
 
 struct gn_warnings {
     int count;   /* texts held, at most GN_WARN_MAX */
-    int dropped; /* different texts beyond that */
+    int dropped; /* different texts beyond that, before any was printed */
     int printed; /* the first so many texts, by gn_warn_flush() */
     char text[GN_WARN_MAX][256];
 };

@@ -47,6 +47,7 @@ struct gn_light_opts gn_frame_light_opts(const struct gn_frame *frame, const str
                                          const struct gn_frame_opts *opts, uint32_t light) {
     const struct gn_light *l = &frame->scene->lights[light];
     const struct gn_light_opts *own = gn_frame_own_opts(opts, light);
+    /* that the scene names, else pcf: gn_frame_learn_scene() */
     const enum gn_technique technique = frame->notes.lights.at[light].technique;
     const bool colored = (opts->shadow.any.given | own->given) & COLOR_GIVEN;
     struct gn_light_opts holds = {

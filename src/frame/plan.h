@@ -54,7 +54,7 @@ struct gn_light_key {   /* one light of a LIT or visibility program */
     uint8_t moments;    /* gn_moments: what is read in the map's place, or beside it */
     uint8_t cascades;   /* its map has some: 0 or 1 */
     uint8_t ranged;     /* it ends at its range: 0 or 1 */
-    uint8_t filter_set; /* its filter has the radius of SHADOW_SLOPE: 0 or 1 */
+    uint8_t filter_set; /* its filter's radius is read from SHADOW_SLOPE, not compiled in: 0 or 1 */
     uint8_t taps;       /* samples of a technique that takes them, else 0 */
 };
 enum gn_receiver { /* whose shadows an item receives */

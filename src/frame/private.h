@@ -71,7 +71,7 @@ struct gn_frame {
         bool scaled, turned, shows_key;
     } environment; /* of this frame */
     struct {
-        GN_LIST(struct gn_light_note) lights; /* by the scene's lights */
+        GN_LIST(struct gn_light_note) lights; /* what is learned of each of the scene's */
         uint32_t said, about[GN_NOTICE_ABOUT];
     } notes;
     struct {
@@ -197,7 +197,8 @@ void gn_frame_draw_item(struct gn_frame *frame, const struct gn_pose *pose,
 /* Opaque before masked, then nearest first. */
 void gn_frame_sort_draws(struct gn_frame *frame, uint32_t first);
 
-/* ---- steps: maps.c, picture.c, overlay.c, caption.c ---- */
+/* ---- steps (rows: program.h): maps.c, picture.c, backdrop.c, overlay.c, caption.c, mean.c and, of
+ * scaling, frame.c ---- */
 
 #define X(name)                                                                                    \
     void gn_frame_add_##name(struct gn_frame *frame, const struct gn_pose *pose,                   \
@@ -338,10 +339,10 @@ void gn_frame_shadow_constants(const struct gn_shadow_view *view, mat4 clip_from
                                float (*constants)[4]);
 
 /* key.c: the program that draws an item. */
-/* Whether that reads the shadows of planar lights. */
 struct gn_program_key gn_key_of(enum gn_program_kind kind); /* all else is zero */
 /* The bits of a slot's texture; 0: the material has none. */
 uint64_t gn_key_texture(const struct gn_material *material, enum gn_texture_slot slot);
+/* Whether it reads the shadows of planar lights. */
 bool gn_key_on_plane(const struct gn_frame *frame, uint32_t item, const struct gn_frame_opts *opts);
 /* The plane whose planar shadows it reads, if that is not the first; else 0. */
 uint32_t gn_key_further_plane(const struct gn_frame *frame, uint32_t item,

@@ -128,11 +128,11 @@ bool gn_gl_deltas_step(struct gn_gl *gl, size_t bytes);
 void gn_gl_deformation_finish(struct gn_gl *gl);
 /* Uploads the plan's texels of the pose if they changed, and binds what vertex shaders read. */
 void gn_gl_pose_upload(struct gn_gl *gl, const struct gn_plan *plan);
-/* The same for the indices of its levels of detail. */
+/* upload.c: uploads the indices of the plan's levels of detail if they changed. */
 void gn_gl_detail_upload(struct gn_gl *gl, const struct gn_plan *plan);
-/* Of a draw of a geometry, in the buffer of indices. */
+/* upload.c: of a draw of a geometry, in the buffer of indices. */
 uint32_t gn_gl_first_index(const struct gn_gl *gl, const struct gn_draw *draw);
-/* The same for the uniforms of materials that clips move. */
+/* upload.c: uploads the uniforms of materials that clips move if they changed. */
 void gn_gl_materials_update(struct gn_gl *gl, const struct gn_plan *plan);
 
 struct gn_gl_instances { /* a ring, so that a frame does not wait for the one before */

@@ -126,7 +126,7 @@ static bool send_indices(struct gn_gl *gl, size_t bytes) {
     return s->upload.first == all;
 }
 
-/* In one frame, which 12 MB of indices of a million triangles make late. The buffer keeps its name,
+/* All in one frame: for a million triangles, 12 MB, that frame is late. The buffer keeps its name,
  * which vertex arrays have. */
 void gn_gl_detail_upload(struct gn_gl *gl, const struct gn_plan *plan) {
     struct gn_gl_scene *s = &gl->scene;

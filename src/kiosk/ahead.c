@@ -287,7 +287,8 @@ static void take_loaded(void *user, int64_t now_ns) {
         s->reload.loaded = loaded;
         return;
     }
-    if (loaded->scene && gn_show_look(s, loaded->scene, &screen->staged.looks, &loaded->err)) {
+    if (loaded->scene &&
+        gn_show_build_looks(s, loaded->scene, &screen->staged.looks, &loaded->err)) {
         gn_show_drop_staged(screen);
         screen->staged.loaded = loaded;
         screen->ahead.idle = false;

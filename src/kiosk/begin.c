@@ -123,7 +123,7 @@ bool gn_show_begin(struct gn_show *s, int scene, struct gn_err *err) {
     const struct gn_kiosk_place first = {.mode = s->modes.first, .scene = scene};
     screen->kiosk = (struct gn_kiosk){.shown = first, .wanted = first};
     screen->scene = gn_kiosk_scene(&screen->rules, &screen->kiosk.shown);
-    if (!gn_show_look(s, screen->stage.scene, &screen->looks, err)) return false;
+    if (!gn_show_build_looks(s, screen->stage.scene, &screen->looks, err)) return false;
     gn_show_enter(screen);
     return true;
 }

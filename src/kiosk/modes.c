@@ -181,7 +181,8 @@ void gn_show_list_again(struct gn_show_screen *s) {
     s->kiosk.shown = s->kiosk.wanted =
         (struct gn_kiosk_place){.mode = show->modes.first, .scene = s->scene};
     s->kiosk.camera = s->kiosk.bad_modes = 0;
-    gn_show_look(show, s->stage.scene, &s->looks, &unused); /* as when it was loaded: not false */
+    gn_show_build_looks(show, s->stage.scene, &s->looks,
+                        &unused); /* as when it was loaded: not false */
 }
 
 /* ---- one of them ---- */
@@ -190,8 +191,8 @@ const struct gn_settings *gn_show_settings(const struct gn_show *s, int mode) {
     return &s->config.options->all[s->modes.settings[mode]];
 }
 
-bool gn_show_look(const struct gn_show *s, const struct gn_scene *scene,
-                  struct gn_show_looks *looks, struct gn_err *err) {
+bool gn_show_build_looks(const struct gn_show *s, const struct gn_scene *scene,
+                         struct gn_show_looks *looks, struct gn_err *err) {
     looks->ready = looks->made = 0;
     for (int i = 0; i < s->modes.count; i++) {
         const struct gn_settings *settings = gn_show_settings(s, i);

@@ -42,9 +42,10 @@ int gn_show_find_mode(const struct gn_show_modes *modes, const char *name);
 const struct gn_settings *gn_show_settings(const struct gn_show *show, int mode);
 /* Rules that `ctl set` may change: idle, fade, captions. */
 void gn_show_take_rules(struct gn_show_screen *screen);
-/* How each mode draws that scene. */
-bool gn_show_look(const struct gn_show *show, const struct gn_scene *scene,
-                  struct gn_show_looks *looks, struct gn_err *err);
+/* Fills looks from the settings of each mode, by gn_stage_look_build(). False: one of them cannot
+ * draw that scene. */
+bool gn_show_build_looks(const struct gn_show *show, const struct gn_scene *scene,
+                         struct gn_show_looks *looks, struct gn_err *err);
 /* Puts the settings of the mode that is shown on the stage. */
 void gn_show_enter(struct gn_show_screen *screen);
 /* Sets the camera of a view; called for each frame. */

@@ -66,6 +66,7 @@ struct gn_part {
     /* The options are others: after a reload. NULL: its settings count for the next start, or it
      * reads them at each use. */
     void (*reopen)(void *part);
+    /* A load has ended so: content follows other files then. */
     void (*loaded)(void *part, enum gn_part_load what);
     /* Adds to the options that the screen is opened with. */
     void (*add_screen)(const void *part, struct gn_screen_opts *opts);

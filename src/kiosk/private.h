@@ -22,7 +22,8 @@
 struct gn_show_config {
     struct gn_options *options;  /* owned: a reload makes others */
     struct gn_changes *changes;  /* by `ctl set`; NULL: none yet */
-    char asked[PATH_MAX];        /* the scene that the options want; "": the default one */
+    char asked[PATH_MAX];        /* the scene that the options want, or those of the last reload,
+                                    even of one that failed, as it is watched; "": the default */
     bool waits;                  /* options were set that are not shown yet */
     const char *file;            /* in place of the options' scene, in their arena; or NULL */
     bool has_past;               /* that was replaced by a file: */

@@ -1,7 +1,8 @@
 /* Reload (SIGHUP, ctl): all options are read again, a thread loads the scene, and work ahead puts
  * it on the GPU, while frames go on. If one fails the kiosk keeps the last good configuration and
- * its picture; but once the old scene is gone (take_reload()) a failure ends the kiosk. The first
- * load is one, too, once it takes over a second: until then a black stage is the last good one. */
+ * its picture; but once the old scene is gone (take_reload()) a failure ends the kiosk, but one of
+ * GL is shown as a text (screen.c); its request was answered before. The first load is one, too,
+ * once it takes over a second: until then a black stage is the last good one. */
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -80,7 +81,7 @@ void gn_show_drop_reload(struct gn_show *s) {
 /* The last good configuration stays. The error is shown on the screen, but one of ctl's file is the
  * client's alone. */
 static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct gn_err *why) {
-    gn_show_drop_reload(s);
+    gn_show_drop_reload(s); /* trial.c sees that */
     gn_show_answer_reload(s, why);
     if (cause == GN_RELOAD_FILE) return;
     gn_parts_loaded(&s->parts, GN_PART_LOAD_FAILED);

@@ -35,8 +35,8 @@ struct gn_show_reload {
     char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
 };
 
-/* The reload that show->wish wants: reads the options again, and begins to load their scene, or the
- * wish's file in all modes. An unfinished reload is dropped. */
+/* If one is wanted (show->wish): reads the options again into show->reload; gn_show_step_reload()
+ * loads their scene, or the wish's file in all modes. An unfinished reload is dropped. */
 void gn_show_reload(struct gn_show *show);
 /* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
  * be loaded a caption has the reason for a while. */

@@ -7,7 +7,7 @@ bool gn_show_set_option(struct gn_show_screen *s, const struct gn_option_row *ro
     if (!s->show->config.changes)
         s->show->config.changes = gn_changes_create(s->show->config.options);
     if (!gn_changes_set(s->show->config.changes, row, text, err)) return false;
-    if (!gn_show_look(s->show, s->stage.scene, &looks, err)) { /* a mode cannot use it */
+    if (!gn_show_build_looks(s->show, s->stage.scene, &looks, err)) { /* a mode cannot use it */
         gn_changes_undo(s->show->config.changes);
         return false;
     }

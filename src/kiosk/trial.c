@@ -192,7 +192,8 @@ static int64_t trial_due_ns(const void *part) {
     return t->counts ? t->begun_ns + PROOF_NS : INT64_MAX;
 }
 
-/* A reload is marked as it begins to load. */
+/* A reload is marked as it begins to load; one that fails leaves reload.options NULL, and the old
+ * state is marked again. */
 static void step_trial(void *part) {
     struct trial *t = part;
     const struct gn_show *s = show_of(t);

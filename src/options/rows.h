@@ -1,6 +1,6 @@
 /* The table of options, one row each: GN_OPTION(fields of struct gn_option_row). Included once to
  * count the rows (table.h) and once to make them (table.c), hence without a guard. A row and its
- * field in settings.h make an option. */
+ * field in settings.h make an option. FIELD, LIGHT, commands and lists of choices: table.c. */
 /* clang-format off */
 
 /* the scene, and how it stands */

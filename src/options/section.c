@@ -8,6 +8,7 @@
 static bool is_of_mode(const struct gn_option_row *row);
 static bool is_of_light(const struct gn_option_row *row) { return row->of_light; }
 
+/* gn_options_resolve() makes settings of them, once the flags are there. */
 static bool take_modes(struct gn_options *options, const struct gn_sections *sections, bool checks,
                        struct gn_err *err) {
     (void)checks, (void)err;

@@ -77,7 +77,7 @@ static const struct {
     {gn_scene_count_gpu, 990},
 };
 
-/* fit_px: with smaller pictures it is within a limit; 0: it is what it is. */
+/* fit_px: the side that pictures must be within for another try; 0: there is no other try. */
 static struct gn_scene *load_once(struct gn_gltf *g, const uint8_t *data, size_t size,
                                   uint32_t *fit_px) {
     struct holder *holder = gn_xalloc(1, sizeof *holder);
@@ -108,7 +108,8 @@ static struct gn_scene *load_once(struct gn_gltf *g, const uint8_t *data, size_t
     return NULL;
 }
 
-/* Once more, with what is said of it then, while its pictures are too large for the limits. */
+/* Loads, and while its pictures are over a limit loads again with smaller ones. Warnings are those
+ * of the last load. */
 static struct gn_scene *load_scene(struct gn_gltf *g, const uint8_t *data, size_t size) {
     struct gn_scene *scene;
     struct gn_warnings before = {0};
@@ -156,8 +157,8 @@ char *gn_scene_folder(const char *path) {
 
 static bool read_model(const struct gn_gltf *g, struct gn_bytes *bytes) {
     const uint64_t most = g->limits.file_mb << 20;
-    return gn_file_read_seen(g->path, most < SIZE_MAX ? (size_t)most : SIZE_MAX, g->limits.progress,
-                             FILE_PERMILLE, bytes, g->err);
+    return gn_file_read_progress(g->path, most < SIZE_MAX ? (size_t)most : SIZE_MAX,
+                                 g->limits.progress, FILE_PERMILLE, bytes, g->err);
 }
 
 struct gn_scene *gn_scene_load_converted(const char *path, const void *data, size_t size,

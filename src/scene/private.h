@@ -131,8 +131,8 @@ struct gn_gltf_file { /* what the file declares, by its own numbers */
     struct gn_buffer_view *views;
     struct gn_accessor *accessors;
     const float **key_times; /* per accessor: times already copied */
-    double **origins;        /* per accessor: what is taken off its positions, or NULL */
-    struct gn_mesh *meshes;
+    double **origins;        /* far.c; per accessor: what is taken off its positions, or NULL */
+    struct gn_mesh *meshes;  /* node.c: which are used; mesh.c: their primitives */
     size_t buffer_count, view_count, accessor_count, mesh_count, material_count, node_count,
         texture_count, image_count, skin_count;
 };
@@ -192,7 +192,7 @@ struct gn_gltf {
     int64_t end_ns;              /* of the thread's processor time: the limit on seconds */
     unsigned permille[2];        /* of the load, where its present step begins and ends */
     uint32_t getters;            /* calls since the start; every so often one looks at the clock */
-    bool failed, failed_part;    /* part: by what the file has at one place, by no limit */
+    bool failed, failed_part;    /* part: it has a place (at) */
     struct gn_err spared;        /* the first failure that gn_gltf_spare() took back */
     bool is_missing[GN_MISSING_COUNT];
     struct gn_gltf_memory memory;
@@ -213,14 +213,15 @@ struct gn_gltf {
 
 /* ---- gltf/message.c ---- */
 
-/* "PATH: nodes[3].mesh: text". The first failure stays; both return false. at may be NULL. */
+/* "PATH: nodes[3].mesh: text". The first failure stays; both return false. at NULL:
+ * of the whole load (memory, time, a limit): gn_gltf_spare() leaves it. */
 bool gn_gltf_fail(struct gn_gltf *g, const struct gn_at *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void gn_gltf_warn(struct gn_gltf *g, const struct gn_at *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* For a part of the file that a scene can do without, right after it was read by a load that had
  * not failed before: where it is at fault, its failure becomes a warning that ends in `without`,
- * the load goes on, and the answer is true. Failures by limits and of memory stay. */
+ * the load goes on, and the answer is true. Failures without a place (at NULL) stay. */
 bool gn_gltf_spare(struct gn_gltf *g, const char *without);
 
 /* Nothing is left to be shown: for the first part that was done without, or else for that reason.
@@ -251,6 +252,7 @@ void gn_gltf_progress(const struct gn_gltf *g, uint64_t done, uint64_t all);
 /* ---- the steps of load.c, in order ---- */
 
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf/file.c */
+/* And makes each list of the file an array of objects. */
 bool gn_gltf_check_support(struct gn_gltf *g);
 bool gn_gltf_supports(const char *extension); /* a reader knows it */
 bool gn_gltf_uses(const struct gn_gltf *g, const char *extension);

@@ -32,7 +32,7 @@ static bool is_automatic(const struct gn_option_row *row, const void *value) {
 /* From a value of a setting, by the row's kind, to the field of an entry. */
 static void set_entry(struct gn_light_opts *entry, const struct gn_option_row *row,
                       const void *value) {
-    /* then that of the environment's key stays, which gn_stage_set_key() gave the made light */
+    /* an automatic radius leaves that of the environment's key, which gn_stage_set_key() gave */
     if (row->target == offsetof(struct gn_light_opts, radius) && is_automatic(row, value)) return;
     union {
         float number;

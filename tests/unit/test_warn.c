@@ -67,11 +67,30 @@ static void each_is_printed_once(void **state) {
     free(text);
 }
 
+/* A kiosk that runs for months. */
+static void a_printed_one_makes_room(void **state) {
+    (void)state;
+    struct gn_warnings warnings = {0};
+    for (int i = 0; i < 3 * GN_WARN_MAX; i++) {
+        char *text = NULL, wanted[40];
+        size_t size;
+        gn_warn(&warnings, "w%d", i);
+        if (i > 0) gn_warn(&warnings, "w%d", i - 1);
+        snprintf(wanted, sizeof wanted, "gnomon: warning: w%d\n", i);
+        FILE *to = open_memstream(&text, &size);
+        gn_warn_flush(&warnings, to);
+        fclose(to);
+        assert_string_equal(text, wanted);
+        free(text);
+    }
+    assert_int_equal(warnings.count, GN_WARN_MAX);
+    assert_int_equal(warnings.dropped, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_texts_count_once),
-        cmocka_unit_test(more_than_fit_are_counted),
-        cmocka_unit_test(each_is_printed_once),
+        cmocka_unit_test(equal_texts_count_once),   cmocka_unit_test(more_than_fit_are_counted),
+        cmocka_unit_test(a_printed_one_makes_room), cmocka_unit_test(each_is_printed_once),
         cmocka_unit_test(none_print_nothing),
     };
     return RUN(tests);

@@ -183,7 +183,7 @@ bool gn_gltf_uses(const struct gn_gltf *g, const char *extension) {
     return gn_gltf_requires(g, extension) || lists_extension(g, "extensionsUsed", extension);
 }
 
-/* What is no array of objects becomes one: others need not look. */
+/* Makes each list an array of objects, so that other files need not check. */
 static void check_arrays(struct gn_gltf *g) {
     static const char *const names[] = {
         "buffers", "bufferViews", "accessors", "images", "samplers", "textures",  "materials",
