@@ -7,14 +7,14 @@
 layout(location = 0) out uvec4 o_bits;
 
 // Visibility from geometry and filter alone: 1 outside of cone and range; a caster whose visible side faces away from the light
-// blocks itself. See lit.frag for the arguments.
+// blocks itself, with FACED any. See lit.frag for the arguments.
 #define SEE_SHADOWED_LIGHT(slot, type, radial, visibility, map) \
     { \
         light_sample l = light_at(slot, type, v_position); \
         shadow_place place = \
             shadow_place_of(slot, type, radial, v_shadow[slot], v_position, surface_normal(), face, l); \
         float filtered = shadow_mixed(slot, place, visibility(map, place)); \
-        bool blocks_itself = v_emissive.w > 0.5 && dot(face, l.to_light) <= 0.0; \
+        bool blocks_itself = (FACED || v_emissive.w > 0.5) && dot(face, l.to_light) <= 0.0; \
         if (l.cone > 0.0 && l.in_range) seen = blocks_itself ? 0.0 : filtered; \
     }
 

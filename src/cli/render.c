@@ -7,6 +7,8 @@
 
 #include "caption/captions.h"
 #include "cli/commands.h"
+#include "cli/hours_picture.h"
+#include "core/arena.h"
 #include "core/clock.h"
 #include "image/write.h"
 #include "shadow/grey.h"
@@ -16,7 +18,8 @@ struct render {
     struct gn_stage stage;
     struct gn_captions *captions; /* NULL: none */
     enum gn_picture_format format;
-    bool map; /* --aov map */
+    bool map;                   /* --aov map */
+    struct gn_sun_hours *hours; /* --aov sun-hours; NULL: another */
     uint8_t *rgba;
     float *floats;    /* RGBA from the GPU, packed in place to what the file wants */
     int64_t begun_ns; /* the rays of a frame; 0: not yet */
@@ -105,6 +108,27 @@ static bool write_picture(struct render *r, const struct gn_plan *plan, const ch
     return gn_picture_write_png8(path, r->rgba, w, h, false, err);
 }
 
+static bool write_hours(struct render *r, int64_t time_ns, const char *path,
+                        struct gn_warnings *warnings, struct gn_err *err) {
+    const struct gn_settings *o = r->stage.settings;
+    const int w = o->render.size.width_px, h = o->render.size.height_px;
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    struct gn_sun_hours_picture picture = {0};
+    bool ok = gn_sun_hours_draw(r->hours, &r->stage, time_ns, &picture, warnings, err);
+    const double took_s = (double)(gn_clock_monotonic_ns() - begun_ns) * 1e-9;
+    if (ok && r->format == GN_PICTURE_PFM) {
+        ok = gn_picture_write_pfm(path, picture.hours, 1, w, h, err);
+    } else if (ok) {
+        gn_hours_picture_draw(r->hours, &picture, o, r->rgba, w, h, warnings);
+        ok = gn_picture_write_png8(path, r->rgba, w, h, true, err);
+    }
+    if (ok)
+        printf("hours of sun: %u positions over the horizon, %.2f h, in %.1f s\n", r->hours->count,
+               r->hours->count * r->hours->step_h, took_s);
+    gn_sun_hours_finish(&picture);
+    return ok;
+}
+
 /* On a terminal, once the work has taken a second. */
 static void print_progress(void *user, double share) {
     struct render *r = user;
@@ -140,6 +164,10 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
             o->scene.time_ns + (int64_t)llround((double)i / o->run.fps * (double)GN_NS_PER_S);
         r->begun_ns = r->percent = 0;
         r->stage.shown.opts = look;
+        if (r->hours) {
+            if (!write_hours(r, time_ns, path, warnings, err)) return false;
+            continue;
+        }
         if (gathers) gn_stage_gather(&r->stage, &r->stage.shown, time_ns, warnings);
         const struct gn_plan *plan =
             gn_view_draw(&r->stage.shown, &r->stage, time_ns, warnings, err);
@@ -152,10 +180,19 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
     return true;
 }
 
+static bool make_hours(struct render *r, struct gn_err *err) {
+    const struct gn_settings *o = r->stage.settings;
+    if (o->render.aov != GN_AOV_SUN_HOURS)
+        return (!o->run.from && !o->run.to) ||
+               gn_fail_usage(err, "--from and --to are valid only with --aov sun-hours");
+    r->hours = gn_xalloc(1, sizeof *r->hours);
+    return gn_sun_hours_build(r->hours, o, r->stage.scene, err);
+}
+
 bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
     const struct gn_settings *o = options->settings;
-    struct render r = {.map = o->render.aov == GN_AOV_COUNT};
+    struct render r = {.map = o->render.aov == GN_AOV_MAP};
     if (!o->run.out) return gn_fail_usage(err, "render: no output file: add -o FILE.png");
     if (!gn_picture_format_of(o->run.out, &r.format, err)) return false;
     if (o->run.frames > 1 && !is_pattern(o->run.out))
@@ -175,7 +212,7 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
         r.stage.truth.progress = print_progress;
         r.stage.truth.user = &r;
     }
-    ok = ok && gn_stage_open(&r.stage, warnings, err);
+    ok = ok && make_hours(&r, err) && gn_stage_open(&r.stage, warnings, err);
     if (ok)
         r.stage.shown.opts.output.msaa = gn_stage_msaa(&r.stage, (uint32_t)o->render.size.width_px,
                                                        (uint32_t)o->render.size.height_px, true);
@@ -189,6 +226,7 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
     ok = ok && draw_frames(&r, warnings, err);
     free(r.rgba);
     free(r.floats);
+    free(r.hours);
     gn_stage_close(&r.stage);
     gn_captions_destroy(r.captions);
     return ok;

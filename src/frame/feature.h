@@ -48,7 +48,9 @@
     X(SKIN, "skin")         /* vertices follow up to four joints */                                \
     X(SKIN_8, "skin-8")     /* or up to eight */                                                   \
     X(MORPH, "morph")       /* the mesh has targets */                                             \
-    X(OCCLUDED, "occluded") /* LIT, AOV: its ambient light is looked up in the scene's volume */
+    X(OCCLUDED, "occluded") /* LIT, AOV: its ambient light is looked up in the scene's volume */   \
+    X(FACED,                                                                                       \
+      "faced") /* AOV: what is turned away from the light is dark, also if it casts nothing */
 
 enum gn_feature_bit {
 #define GN_X(NAME, ...) GN_BIT_##NAME##_TEXTURE, /* that slot has a texture */

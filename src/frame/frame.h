@@ -46,6 +46,8 @@ struct gn_frame_view_opts {
 struct gn_frame_debug_opts { /* what is drawn instead of the picture, or over it */
     enum gn_aov aov;         /* GN_AOV_COLOR: the picture */
     int light;        /* for visibility: index in the scene; out of range: everything is lit */
+    bool faced;       /* visibility: dark, too, where a surface is turned away from the light, even
+                         if it casts no shadow */
     bool show_lights; /* draw a gizmo at each light */
     bool show_maps;   /* draw the maps as panels along the lower edge */
 };

@@ -202,6 +202,8 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     if (opts->debug.aov == GN_AOV_OCCLUSION) key.features |= occlusion_features(frame, item);
     if (opts->debug.aov == GN_AOV_COLOR ? m->unlit : opts->debug.aov != GN_AOV_VISIBILITY)
         return key;
+    if (opts->debug.aov == GN_AOV_VISIBILITY && opts->debug.faced)
+        key.features |= GN_FEATURE(FACED);
     enum gn_receiver receiver = receiver_of(frame, item, opts->debug.aov);
     set_lights(frame, &frame->groups[0], opts, receiver, &key);
     if (gn_key_is_floor(frame, index)) { /* its visibility */

@@ -91,7 +91,7 @@ GN_OPTION(.name = "show-maps", .section = "render", .kind = GN_KIND_FLAG,
 GN_OPTION(.name = "light", .section = "render", .kind = GN_KIND_INT, .max = 65535, .value = "N", .fallback = "0",
           .help = "number of the light for --aov visibility and map", .commands = BIT(RENDER), .offset = FIELD(render.light))
 GN_OPTION(.name = "aov", .section = "render", .kind = GN_KIND_CHOICE, .choices = aovs, .value = "WHAT", .fallback = "color",
-          .help = "output variable to draw", .commands = BIT(RENDER), .offset = FIELD(render.aov))
+          .help = "output variable to draw; sun-hours: for how many hours of --date, a day, or between --from and --to, each surface sees the sun of --sun: false colours with a scale in .png, hours in .pfm", .commands = BIT(RENDER), .offset = FIELD(render.aov))
 GN_OPTION(.name = "output", .section = "render", .kind = GN_KIND_CHOICE, .choices = outputs, .value = "SPACE", .fallback = "srgb",
           .help = "encoding of colour; linear is for measurement", .commands = BIT(RENDER) | BIT(BENCH), .offset = FIELD(render.output))
 GN_OPTION(.name = "exposure", .section = "render", .kind = GN_KIND_EV, .min = -24, .max = 24, .value = "auto|EV", .unit = "stops",
@@ -136,6 +136,10 @@ GN_OPTION(.name = "sun-longitude", .key = "longitude", .section = "sun", .kind =
           .help = "longitude of the place, east positive", .change = GN_CHANGE_LIVE, .offset = FIELD(sun.longitude_deg))
 GN_OPTION(.name = "date", .section = "sun", .kind = GN_KIND_DATE, .value = "DATE", .fallback = "now",
           .help = "moment of the sun: now, or a date 2026-12-21 (its noon by the clock), or one with a time 2026-12-21T09:30 by the clock of time_zone, unless Z or +01:00 follows", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.date))
+GN_OPTION(.name = "from", .kind = GN_KIND_DATE, .value = "DATE",
+          .help = "of --aov sun-hours, in place of a day: the first moment, as 2026-12-21T09:00", .commands = BIT(RENDER), .offset = FIELD(run.from))
+GN_OPTION(.name = "to", .kind = GN_KIND_DATE, .value = "DATE",
+          .help = "and the last one, at most a day later", .commands = BIT(RENDER), .offset = FIELD(run.to))
 GN_OPTION(.name = "sun-time-zone", .key = "time_zone", .section = "sun", .kind = GN_KIND_TEXT, .value = "ZONE",
           .help = "time zone of date, as Europe/Berlin; without it the system's", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.time_zone))
 GN_OPTION(.name = "sun-speed", .key = "speed", .section = "sun", .kind = GN_KIND_NUMBER, .min = -1e6, .max = 1e6, .value = "F", .fallback = "1",

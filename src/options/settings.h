@@ -94,6 +94,9 @@ struct gn_scene_settings {
 };
 enum gn_occlusion_setting { GN_OCCLUSION_AUTO, GN_OCCLUSION_NONE };
 enum gn_gather_setting { GN_GATHER_AUTO, GN_GATHER_NONE, GN_GATHER_ALWAYS };
+/* --aov of what is no picture of one light: the light's map; hours of sun */
+#define GN_AOV_MAP       GN_AOV_COUNT
+#define GN_AOV_SUN_HOURS (GN_AOV_COUNT + 1)
 enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
     struct gn_size size;
@@ -123,7 +126,7 @@ struct gn_render_settings {
     double detail_px;     /* NAN: automatic, 0: full */
     bool show_lights, show_maps;
     int light; /* number of the light that --aov visibility and map show */
-    int aov;   /* enum gn_aov, or GN_AOV_COUNT: the light's map */
+    int aov;   /* enum gn_aov, or one of those below */
     enum gn_picture output;
     double exposure_ev; /* NAN: automatic */
     int tone;           /* enum gn_tone */
@@ -200,6 +203,7 @@ struct gn_run_settings { /* of this run of the program: flags only */
     const char *caption; /* text on the picture, or NULL */
     int frames;
     double fps;
+    const char *from, *to;   /* of hours of sun: as gn_date_parse() reads them, or NULL */
     int samples;             /* points of a light, of technique truth */
     const char *diff;        /* of compare: a file for the difference, or NULL */
     double tolerance, share; /* of compare */

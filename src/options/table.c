@@ -56,13 +56,11 @@ static const struct gn_choice map_formats[] = {
 };
 static const struct gn_choice environments[] = {{"auto", 0}, {"studio", 0}, {"none", 0}, {0}};
 static const struct gn_choice states[] = {{"no", 0}, {0}};
-static const struct gn_choice aovs[] = {{"color", GN_AOV_COLOR},
-                                        {"visibility", GN_AOV_VISIBILITY},
-                                        {"distance", GN_AOV_DISTANCE},
-                                        {"normal", GN_AOV_NORMAL},
-                                        {"occlusion", GN_AOV_OCCLUSION},
-                                        {"map", GN_AOV_COUNT},
-                                        {0}};
+static const struct gn_choice aovs[] = {
+    {"color", GN_AOV_COLOR},         {"visibility", GN_AOV_VISIBILITY},
+    {"distance", GN_AOV_DISTANCE},   {"normal", GN_AOV_NORMAL},
+    {"occlusion", GN_AOV_OCCLUSION}, {"map", GN_AOV_MAP},
+    {"sun-hours", GN_AOV_SUN_HOURS}, {0}};
 static const struct gn_choice outputs[] = {
     {"srgb", GN_PICTURE_SRGB}, {"linear", GN_PICTURE_LINEAR}, {0}};
 static const struct gn_choice tones[] = {{"auto", GN_TONE_AUTO}, {"neutral", GN_TONE_NEUTRAL},

@@ -1,5 +1,6 @@
 #include "stage/rays.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -170,6 +171,36 @@ static bool cast_occlusion(struct gn_stage *stage, const struct gn_view *view,
     for (size_t i = 0; i < pixels; i++)
         if (shares[i] < 0.0f) shares[i] = 1.0f; /* the background */
     stage->truth.visibility = shares;
+    return true;
+}
+
+bool gn_stage_cast_sun(const struct gn_stage *stage, const struct gn_view *view,
+                       const struct gn_plan *plan, const float (*to_ws)[3], uint32_t count,
+                       float *out, struct gn_err *err) {
+    struct gn_framing framing;
+    struct gn_ray_eye eye;
+    struct gn_raycast seen;
+    if (!check_memory(stage, plan, err)) return false;
+    struct gn_ray_lamp *lamps = gn_xalloc(count, sizeof *lamps);
+    for (uint32_t i = 0; i < count; i++) {
+        lamps[i] = (struct gn_ray_lamp){.type = GN_LIGHT_DIRECTIONAL, .range_m = INFINITY};
+        for (int k = 0; k < 3; k++) lamps[i].direction_ws[k] = -(double)to_ws[i][k];
+    }
+    gn_frame_camera(view->pose, &view->opts.view, (float)plan->width_px / (float)plan->height_px,
+                    &framing);
+    gn_ray_eye_look(&eye, &framing, (int)plan->width_px, (int)plan->height_px);
+    gn_raycast_init(&seen, view->pose->scene, view->pose, NULL);
+    gn_cast(&(struct gn_cast_opts){.rays = &seen,
+                                   .eye = &eye,
+                                   .lamps = lamps,
+                                   .lamp_count = count,
+                                   .sums = true,
+                                   .samples = 1,
+                                   .progress = stage->truth.progress,
+                                   .user = stage->truth.user},
+            &out);
+    gn_raycast_finish(&seen);
+    free(lamps);
     return true;
 }
 

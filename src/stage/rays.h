@@ -10,8 +10,15 @@
 bool gn_stage_cast(struct gn_stage *stage, const struct gn_view *view, const struct gn_plan *plan,
                    struct gn_err *err);
 
-/* The same in a thread of low priority, with copies of the pose and the camera; the scene must
- * outlive it. NULL: err has the reason; a plan without such lights is a failure. Once they are
+/* How many of the sun's positions each pixel's surface faces and sees, by a ray for each: into out,
+ * of the plan's width x height, row 0 on top; GN_CAST_BACKGROUND where there is no surface. to_ws:
+ * unit vectors to them. Blocks likewise. */
+bool gn_stage_cast_sun(const struct gn_stage *stage, const struct gn_view *view,
+                       const struct gn_plan *plan, const float (*to_ws)[3], uint32_t count,
+                       float *out, struct gn_err *err);
+
+/* gn_stage_cast() in a thread of low priority, with copies of the pose and the camera; the scene
+ * must outlive it. NULL: err has the reason; a plan without such lights is a failure. Once they are
  * done, gn_view.rays takes them for plans of the same lights and size. */
 struct gn_rays *gn_rays_begin(const struct gn_stage *stage, const struct gn_view *view,
                               const struct gn_plan *plan, struct gn_err *err);

@@ -167,7 +167,7 @@ static void set_frame_opts(struct gn_frame_opts *f, const struct gn_settings *o)
         .output.width_px = (uint32_t)o->render.size.width_px,
         .output.height_px = (uint32_t)o->render.size.height_px,
         .view.framing.turns = o->scene.turntable_deg_s != 0.0,
-        .debug.aov = o->render.aov == GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
+        .debug.aov = o->render.aov >= GN_AOV_COUNT ? GN_AOV_VISIBILITY /* this light alone */
                                                    : (enum gn_aov)o->render.aov,
         .debug.light = o->render.light,
         .output.linear = o->render.output == GN_PICTURE_LINEAR,
@@ -228,7 +228,7 @@ static void set_framing(struct gn_framing_opts *framing, const struct gn_camera_
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *o,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err) {
-    const bool of_light = o->render.aov == GN_AOV_VISIBILITY || o->render.aov == GN_AOV_COUNT;
+    const bool of_light = o->render.aov == GN_AOV_VISIBILITY || o->render.aov == GN_AOV_MAP;
     if (!choose_clips(o, scene, &look->clips, warnings, err) ||
         !choose_variant(o, scene, &look->variant, warnings, err))
         return false;

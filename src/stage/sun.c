@@ -6,7 +6,6 @@
 #include <time.h>
 
 #include "core/clock.h"
-#include "core/sun.h"
 #include "environment/daylight.h"
 #include "options/date.h"
 #include "stage/lights.h"
@@ -14,7 +13,7 @@
 
 /* ---- settings ---- */
 
-static bool has_place(const struct gn_settings *o, struct gn_place *place) {
+bool gn_stage_sun_place(const struct gn_settings *o, struct gn_place *place) {
     const struct gn_sun_settings *s = &o->sun;
     const bool flag = !isnan(s->place_deg[0]);
     place->latitude_deg = flag ? s->place_deg[0] : s->latitude_deg;
@@ -24,7 +23,8 @@ static bool has_place(const struct gn_settings *o, struct gn_place *place) {
 
 static bool depends_on_time(const struct gn_settings *o) {
     struct gn_place place;
-    return has_place(o, &place) && (isnan(o->sun.azimuth_deg) || isnan(o->sun.altitude_deg));
+    return gn_stage_sun_place(o, &place) &&
+           (isnan(o->sun.azimuth_deg) || isnan(o->sun.altitude_deg));
 }
 
 static bool is_now(const struct gn_settings *o) {
@@ -37,7 +37,7 @@ bool gn_stage_sun_lacks_clock(const struct gn_settings *settings) {
 
 bool gn_stage_sun_is_set(const struct gn_settings *settings) {
     struct gn_place place;
-    const bool given = has_place(settings, &place) || !isnan(settings->sun.azimuth_deg) ||
+    const bool given = gn_stage_sun_place(settings, &place) || !isnan(settings->sun.azimuth_deg) ||
                        !isnan(settings->sun.altitude_deg);
     return given && !gn_stage_sun_lacks_clock(settings);
 }
@@ -55,15 +55,19 @@ int gn_stage_sun_light(const struct gn_scene *scene) {
     return scene->added.light ? (int)scene->light_count - 1 : first;
 }
 
-bool gn_stage_sun_time(const struct gn_settings *settings, double *utc_s, struct gn_err *err) {
-    const struct gn_sun_settings *s = &settings->sun;
+bool gn_stage_sun_moment(const struct gn_settings *settings, const char *text, double *utc_s,
+                         struct gn_err *err) {
     struct gn_date date;
-    if (is_now(settings) || !gn_date_parse(s->date, &date)) {
+    if (!text || !gn_date_parse(text, &date)) {
         *utc_s = (double)time(NULL);
         return true;
     }
-    return gn_date_utc(&date, s->time_zone, utc_s, err) ||
+    return gn_date_utc(&date, settings->sun.time_zone, utc_s, err) ||
            gn_fail_prefix(err, "%s", gn_settings_label(settings, sun.time_zone));
+}
+
+bool gn_stage_sun_time(const struct gn_settings *settings, double *utc_s, struct gn_err *err) {
+    return gn_stage_sun_moment(settings, settings->sun.date, utc_s, err);
 }
 
 static void warn_of_light(const struct gn_scene *scene, int light, struct gn_warnings *warnings) {
@@ -102,7 +106,7 @@ static bool aim_sun(struct gn_pose *pose, struct gn_frame_opts *opts,
     struct gn_daylight daylight;
     vec3 along;
     if (light < 0) return false;
-    if (has_place(settings, &place)) view = gn_sun_view(opts->view.sun_utc_s, &place);
+    if (gn_stage_sun_place(settings, &place)) view = gn_sun_view(opts->view.sun_utc_s, &place);
     if (!isnan(s->azimuth_deg)) view.azimuth_deg = fmod(s->azimuth_deg + 360, 360);
     if (!isnan(s->altitude_deg)) view.altitude_deg = s->altitude_deg;
     gn_daylight_build(view.altitude_deg, s->turbidity, &daylight);

@@ -2,10 +2,13 @@
 #ifndef GN_STAGE_SUN_H
 #define GN_STAGE_SUN_H
 
+#include "core/sun.h"
 #include "core/warn.h"
 #include "frame/frame.h"
 #include "options/settings.h"
 
+/* The place of --sun, else of [sun]. False: neither has one. */
+bool gn_stage_sun_place(const struct gn_settings *settings, struct gn_place *place);
 /* Whether settings have a place, or an azimuth or an altitude, and do not lack a clock. */
 bool gn_stage_sun_is_set(const struct gn_settings *settings);
 /* Whether the sun is to be that of now, and the clock was never set: it shows a time before 2024.
@@ -19,6 +22,9 @@ int gn_stage_sun_light(const struct gn_scene *scene);
 /* The moment of `date`, seconds of UTC since 1970; of "now" by the system's clock. False: there is
  * no such time zone. */
 bool gn_stage_sun_time(const struct gn_settings *settings, double *utc_s, struct gn_err *err);
+/* The same of a date as gn_date_parse() reads it, or of "now" or NULL. */
+bool gn_stage_sun_moment(const struct gn_settings *settings, const char *text, double *utc_s,
+                         struct gn_err *err);
 /* Before gn_stage_set_lights(), after the environment: the moment, the size of the sun, and an
  * exposure of 0 unless one is given, for the sun's unit is the screen's. Does nothing without
  * [sun].

@@ -36,6 +36,17 @@ static float occlusion(const struct gn_cast_opts *opts, size_t pixel,
     return whole > 0 ? (float)(light / whole) : 1;
 }
 
+/* Of directional lamps. */
+static float sum_of_seen(const struct gn_cast_opts *opts, const struct gn_ray_surface *surface) {
+    float sum = 0;
+    for (uint32_t i = 0; i < opts->lamp_count; i++) {
+        const double *along = opts->lamps[i].direction_ws, *n = surface->normal_ws;
+        if (n[0] * along[0] + n[1] * along[1] + n[2] * along[2] < 0)
+            sum += visibility(opts, &opts->lamps[i], surface);
+    }
+    return sum;
+}
+
 static bool is_cancelled(const struct gn_cast_opts *opts) {
     return opts->cancel && atomic_load_explicit(opts->cancel, memory_order_relaxed);
 }
@@ -48,7 +59,8 @@ static void cast_row(const struct job *job, int y) {
         const bool seen = gn_raycast_eye(opts->rays, opts->eye, x, y, &surface);
         if (opts->occlusion)
             job->out[0][at] = seen ? occlusion(opts, at, &surface) : GN_CAST_BACKGROUND;
-        for (uint32_t i = 0; i < opts->lamp_count; i++)
+        if (opts->sums) job->out[0][at] = seen ? sum_of_seen(opts, &surface) : GN_CAST_BACKGROUND;
+        for (uint32_t i = 0; i < opts->lamp_count && !opts->sums; i++)
             job->out[i][at] =
                 seen ? visibility(opts, &opts->lamps[i], &surface) : GN_CAST_BACKGROUND;
     }
