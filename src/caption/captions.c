@@ -6,6 +6,7 @@
 #include "caption/atlas.h"
 #include "caption/layout.h"
 #include "caption/page.h"
+#include "caption/shape.h"
 #include "core/arena.h"
 
 enum {
@@ -27,9 +28,11 @@ struct gn_captions {
     struct caption captions[GN_CAPTION_KIND_COUNT];
     struct gn_font *font; /* NULL: not yet */
     struct gn_atlas atlas;
-    struct gn_page page; /* that was laid out last */
+    struct gn_page page;   /* that was laid out last */
+    struct gn_shape shape; /* of the line that was looked at last */
     struct gn_caption_run run;
     struct gn_caption_quad quads[QUADS_MAX];
+    char missing[512];    /* packages of fonts, and libraqm */
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
     uint32_t bottom_px;   /* height in use at the picture's lower edge */
     int64_t shown_ns;     /* time of the last run */
@@ -115,7 +118,13 @@ static struct gn_page_size resize_font(void *data, uint32_t line_px) {
 
 static int32_t advance_of(void *data, uint32_t code) {
     struct gn_captions *c = data;
-    return gn_atlas_glyph(&c->atlas, c->font, code)->advance_px;
+    return gn_layout_is_joiner(code) ? 0 : gn_atlas_glyph(&c->atlas, c->font, code)->advance_px;
+}
+
+static int32_t width_of(void *data, const char *begin, const char *end) {
+    struct gn_captions *c = data;
+    gn_shape_line(&c->atlas, c->font, begin, end, false, &c->shape);
+    return c->shape.width_px;
 }
 
 /* Clips the quad to the picture and adds it. */
@@ -129,24 +138,6 @@ static void push_quad(struct gn_captions *c, struct gn_caption_quad quad) {
     quad.width = (right < width ? right : width) - quad.x;
     quad.height = (bottom < height ? bottom : height) - quad.y;
     c->quads[c->run.quad_count++] = quad;
-}
-
-static int32_t push_text(struct gn_captions *c, struct gn_caption_quad like, const char *begin,
-                         const char *end) {
-    const int32_t base = like.y;
-    for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;) {
-        const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, code);
-        struct gn_caption_quad quad = like;
-        quad.x += g->left;
-        quad.y = base - g->top;
-        quad.width = g->width_px;
-        quad.height = g->height_px;
-        quad.atlas_x = g->x;
-        quad.atlas_y = g->y;
-        push_quad(c, quad);
-        like.x += g->advance_px;
-    }
-    return like.x;
 }
 
 /* A white rectangle, of squares that are a line high at most. */
@@ -180,19 +171,27 @@ static void push_bar(struct gn_captions *c, enum gn_caption_kind kind,
 
 static void push_line(struct gn_captions *c, enum gn_caption_kind kind,
                       const struct gn_page_line *line) {
-    static const char gap[] = GN_LAYOUT_GAP;
-    struct gn_caption_quad like = {.x = line->rect.x,
-                                   .y = line->rect.y + (int32_t)line->size.ascent_px,
-                                   .caption = (uint8_t)kind,
-                                   .weak = line->is_label};
+    const int32_t base = line->rect.y + (int32_t)line->size.ascent_px;
     if (c->font->line_px != line->size.line_px) gn_font_resize(c->font, line->size.line_px);
-    like.x = push_text(c, like, line->begin, line->end);
-    if (line->cut) push_text(c, like, gap, gap + sizeof gap - 1);
+    gn_shape_line(&c->atlas, c->font, line->begin, line->end, line->cut, &c->shape);
+    for (uint32_t i = 0; i < c->shape.count; i++) {
+        const struct gn_font_place *place = &c->shape.places[i];
+        const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, place->glyph);
+        push_quad(c, (struct gn_caption_quad){.x = line->rect.x + place->x_px + g->left,
+                                              .y = base - place->y_px - g->top,
+                                              .width = g->width_px,
+                                              .height = g->height_px,
+                                              .atlas_x = g->x,
+                                              .atlas_y = g->y,
+                                              .caption = (uint8_t)kind,
+                                              .weak = line->is_label});
+    }
 }
 
 static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     const bool has_bar = kind == GN_CAPTION_TEXT && c->bar_percent > 0;
-    const struct gn_page_font font = {.resize = resize_font, .advance_px = advance_of, .data = c};
+    const struct gn_page_font font = {
+        .resize = resize_font, .advance_px = advance_of, .line_px = width_of, .data = c};
     const struct gn_page_style *style = &gn_page_styles[kind];
     struct gn_page *page = &c->page;
     gn_page_build(style, &font, c->captions[kind].text, c->run.width_px, c->run.height_px,
@@ -226,6 +225,20 @@ static void lay_out_mark(struct gn_captions *c) {
                (struct gn_caption_quad){
                    .x = x + side / 2, .y = y + side / 2, .width = side, .height = side});
 }
+
+/* Says once what each text lacks that is shown. */
+static void find_missing(struct gn_captions *c) {
+    const size_t before = strlen(c->missing);
+    for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++)
+        if (kind != GN_CAPTION_MARK)
+            gn_shape_find_missing(c->font, c->captions[kind].text, c->missing, sizeof c->missing);
+    const char *more = c->missing + before;
+    if (*more)
+        gn_warn(c->opts.warnings, "texts: missing here: %s; install the packages in brackets",
+                more + (before ? strspn(more, ", ") : 0));
+}
+
+const char *gn_captions_missing(const struct gn_captions *c) { return c->missing; }
 
 /* From below: the text, above it the card and the mode, which is drawn last. */
 static void lay_out_all(struct gn_captions *c) {
@@ -261,6 +274,7 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
             gn_atlas_reset(&c->atlas);
             lay_out_all(c);
         }
+        find_missing(c);
         gn_atlas_seal(&c->atlas);
         c->stale = false;
     }

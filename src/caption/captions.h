@@ -14,7 +14,8 @@ struct gn_captions;
 struct gn_captions_opts { /* zero means the default written beside */
     const char
         *font; /* file; NULL: the first found in the folders of packages; "": the built-in font */
-    struct gn_warnings *warnings; /* receives a warning when a font is not used; none */
+    struct gn_warnings
+        *warnings; /* receives a warning when a font is not used, or one is missing; none */
 };
 /* Reads nothing yet: the font is opened when a text is first laid out. The texts in opts must
  * outlive it. */
@@ -38,6 +39,10 @@ float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);
  * changed. */
 const struct gn_caption_run *gn_captions_run(struct gn_captions *captions, uint32_t width_px,
                                              uint32_t height_px, int64_t now_ns);
+/* What this machine lacks to draw the texts so far: as gn_shape_find_missing() writes it; "":
+ * nothing.
+ */
+const char *gn_captions_missing(const struct gn_captions *captions);
 /* When captions next change the picture since the last run: a time, 0 for at once, INT64_MAX for
  * never. */
 int64_t gn_captions_next_ns(const struct gn_captions *captions);

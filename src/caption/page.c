@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "caption/layout.h"
+#include "caption/script.h"
 
 enum {
     LINE_MIN_PX = 8,
@@ -37,10 +38,9 @@ static uint32_t line_px_of(uint32_t share, uint32_t width, uint32_t height) {
 static const char *line_end(const char *text) { return text + strcspn(text, "\n"); }
 
 static int32_t width_of(const struct build *b, const char *begin, const char *end) {
-    int32_t width = 0;
-    for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;)
-        width += b->font->advance_px(b->font->data, code);
-    return width;
+    const struct gn_layout_opts opts = {
+        .advance_px = b->font->advance_px, .line_px = b->font->line_px, .data = b->font->data};
+    return gn_layout_width_px(&opts, begin, end);
 }
 
 /* At most `most` lines of that text, at x; how wide the widest is. */
@@ -51,6 +51,7 @@ static int32_t add_lines(struct build *b, const char *begin, const char *end, in
                                         .most_lines = most < WRAPPED_MAX ? most : WRAPPED_MAX,
                                         .wraps = wraps,
                                         .advance_px = b->font->advance_px,
+                                        .line_px = b->font->line_px,
                                         .data = b->font->data};
     const uint32_t count = gn_layout_build(&opts, begin, end, lines);
     int32_t widest = 0;
@@ -180,6 +181,14 @@ static void add_all(struct build *b, const char *text, uint32_t line_px) {
     b->wide = wide > title ? wide : title;
 }
 
+/* By its first letter. */
+static bool runs_from_right(const struct gn_page_line *line) {
+    const char *at = line->begin;
+    for (uint32_t code; (code = gn_layout_next(&at, line->end)) != 0;)
+        if (gn_script_is_rtl(code) || code >= 'A') return gn_script_is_rtl(code);
+    return false;
+}
+
 void gn_page_build(const struct gn_page_style *style, const struct gn_page_font *font,
                    const char *text, uint32_t width_px, uint32_t height_px, uint32_t used_px,
                    bool has_bar, struct gn_page *out) {
@@ -203,7 +212,9 @@ void gn_page_build(const struct gn_page_style *style, const struct gn_page_font 
     const int32_t tall = b.y + 2 * above + bar, y = style->at_top ? margin_y : lowest - tall;
     out->ground = (struct gn_page_rect){margin_x, y, b.wide + 2 * beside, tall};
     for (uint32_t i = 0; i < out->count; i++) {
-        out->lines[i].rect.x += margin_x + beside;
+        const bool aligned = !style->columns && runs_from_right(&out->lines[i]);
+        out->lines[i].rect.x +=
+            margin_x + beside + (aligned ? b.wide - out->lines[i].rect.width : 0);
         out->lines[i].rect.y += y + above;
     }
     if (has_bar)

@@ -9,7 +9,8 @@
 
 #include "caption/run.h"
 
-/* The text: with a title that is the first line. In columns a line "LABEL\tVALUE" is a row, others
+/* Lines that begin from right to left end at the ground's right. The text: with a title that is the
+ * first line. In columns a line "LABEL\tVALUE" is a row, others
  * are headings, and an empty line ends a group. Groups flow into two columns side by side where the
  * picture is at least 900 pixels wide. */
 struct gn_page_style {
@@ -26,7 +27,9 @@ struct gn_page_size {
 };
 struct gn_page_font {
     struct gn_page_size (*resize)(void *data, uint32_t line_px); /* the size nearest to that */
-    int32_t (*advance_px)(void *data, uint32_t code);            /* at that size */
+    /* at that size; as in struct gn_layout_opts */
+    int32_t (*advance_px)(void *data, uint32_t code);
+    int32_t (*line_px)(void *data, const char *begin, const char *end);
     void *data;
 };
 struct gn_page_rect {

@@ -215,6 +215,23 @@ static void test_unknown_characters_are_boxes(void **state) {
     }
 }
 
+static void test_what_is_missing_is_said_once(void **state) {
+    (void)state;
+    gn_captions_set(captions, GN_CAPTION_MODE, "Hi", 0);
+    run_at(0);
+    assert_string_equal(gn_captions_missing(captions), "");
+    for (int i = 0; i < 3; i++) {
+        gn_captions_set(captions, GN_CAPTION_MODE, i % 2 ? "ไทย 한" : "한", 0);
+        run_at(0);
+    }
+    assert_string_equal(gn_captions_missing(captions),
+                        "Korean (fonts-noto-cjk), Thai (fonts-noto-core)");
+    assert_int_equal(warnings.count, 2);
+    assert_string_equal(
+        warnings.text[1],
+        "texts: missing here: Thai (fonts-noto-core); install the packages in brackets");
+}
+
 /* ---- work ---- */
 
 static void test_frames_with_the_same_text_do_no_work(void **state) {
@@ -366,6 +383,7 @@ int main(void) {
         TEST(test_text_grows_with_the_picture),
         TEST(test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page),
         TEST(test_no_text_is_no_run),
+        TEST(test_what_is_missing_is_said_once),
         TEST(test_unknown_characters_are_boxes),
         TEST(test_frames_with_the_same_text_do_no_work),
         TEST(test_known_glyphs_are_not_made_again),

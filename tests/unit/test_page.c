@@ -134,6 +134,20 @@ static void test_sizes_are_shares_of_the_shorter_side(void **state) {
     }
 }
 
+static void test_lines_from_right_to_left_begin_at_the_right(void **state) {
+    (void)state;
+    expect_at_all_sizes(GN_CAPTION_CARD, "A long title in Latin letters\nשעון\n12 ساعة\nEnd", true);
+    const struct gn_page_rect title = page.lines[0].rect;
+    for (uint32_t i = 1; i < page.count; i++) {
+        const struct gn_page_rect line = page.lines[i].rect;
+        assert_true(line.width < title.width);
+        if (i == page.count - 1)
+            assert_int_equal(line.x, title.x);
+        else
+            assert_int_equal(line.x + line.width, title.x + title.width);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_card_of_every_problem),
@@ -141,6 +155,7 @@ int main(void) {
         cmocka_unit_test(test_the_help),
         cmocka_unit_test(test_names_of_modes),
         cmocka_unit_test(test_sizes_are_shares_of_the_shorter_side),
+        cmocka_unit_test(test_lines_from_right_to_left_begin_at_the_right),
     };
     return RUN(tests);
 }
