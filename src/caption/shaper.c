@@ -14,7 +14,7 @@
     F(set_freetype_load_flags)                                                                     \
     F(layout)                                                                                      \
     F(get_glyphs)
-#define MEMBER(name) __typeof__(raqm_##name) *name;
+#define MEMBER(name) __typeof__ (&raqm_##name)(name);
 
 static struct {
     bool tried, opens;
