@@ -1,5 +1,6 @@
 #include "caption/captions.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +12,7 @@
 
 enum {
     TEXT_BYTES = 2048,
-    QUADS_MAX = 2560, /* more are not drawn */
+    QUADS_MAX = 4096, /* more are not drawn */
     MARK_SHARE = 80,  /* so many marks fill the picture's shorter side */
 };
 
@@ -34,6 +35,7 @@ struct gn_captions {
     struct gn_caption_quad quads[QUADS_MAX];
     char missing[512];    /* packages of fonts, and libraqm */
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
+    double split;         /* place of the line of a split screen; below 0: none */
     uint32_t bottom_px;   /* height in use at the picture's lower edge */
     int64_t shown_ns;     /* time of the last run */
     bool changed;         /* since then */
@@ -43,6 +45,7 @@ struct gn_captions {
 struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts) {
     struct gn_captions *c = gn_xalloc(1, sizeof *c);
     c->opts = *opts;
+    c->split = -1.0;
     return c;
 }
 
@@ -79,6 +82,12 @@ void gn_captions_set_bar(struct gn_captions *c, double share) {
     const uint32_t percent = share < 0.0 ? 0 : 1 + (share >= 1.0 ? 100 : (uint32_t)(100.0 * share));
     if (c->bar_percent == percent) return;
     c->bar_percent = percent;
+    c->stale = c->changed = true;
+}
+
+void gn_captions_set_split(struct gn_captions *c, double at) {
+    if (c->split == at) return;
+    c->split = at;
     c->stale = c->changed = true;
 }
 
@@ -184,26 +193,54 @@ static void push_line(struct gn_captions *c, enum gn_caption_kind kind,
                                               .atlas_x = g->x,
                                               .atlas_y = g->y,
                                               .caption = (uint8_t)kind,
-                                              .weak = line->is_label});
+                                              .faint = line->is_label ? GN_CAPTION_WEAK : 0});
     }
+}
+
+/* A rectangle with round corners, of rows where they are: its edge there is fainter. */
+static void push_round(struct gn_captions *c, struct gn_caption_quad like,
+                       const struct gn_page_rect *r, int32_t radius) {
+    like.x = r->x, like.y = r->y + radius;
+    like.width = r->width, like.height = r->height - 2 * radius;
+    push_quad(c, like);
+    like.height = 1;
+    for (int32_t i = 0; i < 2 * radius; i++) {
+        const double up = radius - (i / 2) - 0.5,
+                     inset = radius - sqrt((double)radius * radius - up * up);
+        const int32_t whole = (int32_t)ceil(inset);
+        like.y = i % 2 ? r->y + r->height - 1 - i / 2 : r->y + i / 2;
+        like.x = r->x + whole, like.width = r->width - 2 * whole, like.faint = 0;
+        push_quad(c, like);
+        like.faint = (uint8_t)(255.0 * (1.0 - (whole - inset)));
+        if (like.faint > 250 || whole == 0) continue;
+        like.x = r->x + whole - 1, like.width = 1;
+        push_quad(c, like);
+        like.x = r->x + r->width - whole;
+        push_quad(c, like);
+    }
+}
+
+static void push_ground(struct gn_captions *c, enum gn_caption_kind kind,
+                        const struct gn_page_rect *ground) {
+    const struct gn_caption_quad like = {.caption = (uint8_t)kind, .ground = true};
+    push_round(c, like, ground, (int32_t)c->font->line_px / 5);
 }
 
 static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     const bool has_bar = kind == GN_CAPTION_TEXT && c->bar_percent > 0;
     const struct gn_page_font font = {
         .resize = resize_font, .advance_px = advance_of, .line_px = width_of, .data = c};
-    const struct gn_page_style *style = &gn_page_styles[kind];
+    const bool beside = kind == GN_CAPTION_LEFT || kind == GN_CAPTION_RIGHT;
+    const struct gn_page_style placed =
+        beside ? gn_page_beside(kind, c->run.width_px, c->run.height_px, c->split)
+               : gn_page_styles[kind];
+    const struct gn_page_style *style = &placed;
     struct gn_page *page = &c->page;
     gn_page_build(style, &font, c->captions[kind].text, c->run.width_px, c->run.height_px,
                   style->at_top ? 0 : c->bottom_px, has_bar, page);
     if (page->ground.width == 0) return;
     const struct gn_page_rect *ground = &page->ground;
-    push_quad(c, (struct gn_caption_quad){.x = ground->x,
-                                          .y = ground->y,
-                                          .width = ground->width,
-                                          .height = ground->height,
-                                          .caption = (uint8_t)kind,
-                                          .ground = true});
+    push_ground(c, kind, ground);
     for (uint32_t i = 0; i < page->count; i++) push_line(c, kind, &page->lines[i]);
     if (has_bar) push_bar(c, kind, &page->bar);
     if (!style->at_top) c->bottom_px += (uint32_t)ground->height + c->font->line_px * 7 / 20;
@@ -240,14 +277,42 @@ static void find_missing(struct gn_captions *c) {
 
 const char *gn_captions_missing(const struct gn_captions *c) { return c->missing; }
 
-/* From below: the text, above it the card and the mode, which is drawn last. */
+/* White on a dark rim. */
+static void lay_out_handle(struct gn_captions *c) {
+    const struct gn_page_rect rim = gn_page_handle(c->run.width_px, c->run.height_px, c->split);
+    const int32_t wide = rim.width / 8 + 1, side = rim.width - 2 * wide;
+    const struct gn_page_rect disc = {rim.x + wide, rim.y + wide, side, side};
+    struct gn_caption_quad like = {.caption = GN_CAPTION_RIGHT, .ground = true};
+    push_round(c, like, &rim, rim.width / 2);
+    gn_font_resize(c->font, 2 * (uint32_t)side); /* a solid is half a line high */
+    const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, GN_ATLAS_SOLID);
+    like.ground = false;
+    like.atlas_x = g->x;
+    like.atlas_y = g->y;
+    if (g->width_px >= side) push_round(c, like, &disc, side / 2);
+}
+
+/* Side by side at one height. */
+static void lay_out_split(struct gn_captions *c) {
+    const uint32_t bottom_px = c->bottom_px;
+    lay_out(c, GN_CAPTION_LEFT);
+    const uint32_t left_px = c->bottom_px;
+    c->bottom_px = bottom_px;
+    lay_out(c, GN_CAPTION_RIGHT);
+    if (c->bottom_px < left_px) c->bottom_px = left_px;
+    lay_out_handle(c);
+}
+
+/* From below: the text, above it the card, labels of a split screen and the mode, which is drawn
+ * last. */
 static void lay_out_all(struct gn_captions *c) {
-    static const enum gn_caption_kind order[] = {GN_CAPTION_TEXT, GN_CAPTION_CARD, GN_CAPTION_INFO,
-                                                 GN_CAPTION_MODE};
     c->bottom_px = 0;
     c->run.quad_count = 0;
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++)
-        if (c->captions[order[i]].text[0]) lay_out(c, order[i]);
+    if (c->captions[GN_CAPTION_TEXT].text[0]) lay_out(c, GN_CAPTION_TEXT);
+    if (c->captions[GN_CAPTION_CARD].text[0]) lay_out(c, GN_CAPTION_CARD);
+    if (c->captions[GN_CAPTION_RIGHT].text[0] && c->split >= 0.0) lay_out_split(c);
+    if (c->captions[GN_CAPTION_INFO].text[0]) lay_out(c, GN_CAPTION_INFO);
+    if (c->captions[GN_CAPTION_MODE].text[0]) lay_out(c, GN_CAPTION_MODE);
     if (c->captions[GN_CAPTION_MARK].text[0]) lay_out_mark(c);
 }
 

@@ -30,6 +30,9 @@ void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, co
                      int64_t now_ns);
 /* A bar under GN_CAPTION_TEXT, filled to that share, 0 to 1; below 0, as at first: no bar. */
 void gn_captions_set_bar(struct gn_captions *captions, double share);
+/* The line of a split screen at that share of the width, with its handle; below 0, as at first:
+ * none, and GN_CAPTION_LEFT and GN_CAPTION_RIGHT are not shown. */
+void gn_captions_set_split(struct gn_captions *captions, double at);
 /* Opacity of a caption that was set that long ago: 1, fading at the end of its time, then 0.
  * Pure. */
 float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);

@@ -19,6 +19,8 @@ struct gn_page_style {
     uint32_t most_lines;  /* of the rest; 0: as many as there is room for */
     bool wraps;           /* lines are broken between words; else cut */
     bool columns, at_top;
+    bool at_right;          /* stands at the right of its place */
+    int32_t from_px, to_px; /* its place, left to right; 0, 0: all within the margins */
 };
 extern const struct gn_page_style gn_page_styles[GN_CAPTION_KIND_COUNT];
 
@@ -48,6 +50,13 @@ struct gn_page {
     struct gn_page_line lines[GN_PAGE_LINES_MAX];
     uint32_t count;
 };
+
+/* The place of a label beside the line of a split screen, which is at that share of the width, 0 to
+ * 1: it hugs the line, and is nothing where there is no room for a word. */
+struct gn_page_style gn_page_beside(enum gn_caption_kind kind, uint32_t width_px,
+                                    uint32_t height_px, double at);
+/* The round handle on that line, half way up: its side is its diameter. */
+struct gn_page_rect gn_page_handle(uint32_t width_px, uint32_t height_px, double at);
 
 /* used_px: height in use above the lower margin. The font keeps the size of the last line. */
 void gn_page_build(const struct gn_page_style *style, const struct gn_page_font *font,

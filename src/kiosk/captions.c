@@ -76,17 +76,34 @@ bool gn_show_bar_moves(const struct gn_show_screen *s) {
     return progress_percent(s, gn_loop_now_ns(s->show->loop)) != s->text.bar;
 }
 
+/* A split screen names both of its modes as long as it is on. */
+static bool has_labels(const struct gn_show_screen *s) {
+    return s->split.on && s->rules.caption_ns > 0;
+}
+
+static void write_labels(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                         int64_t now_ns) {
+    const struct gn_show_modes *modes = &s->show->modes;
+    const bool waits = s->kiosk.wanted.mode != view->mode; /* its picture is not there yet */
+    char right[160] = "";
+    if (has_labels(s))
+        snprintf(right, sizeof right, "%s%s",
+                 s->truth.on ? gn_techniques[GN_TECHNIQUE_TRUTH].title
+                             : modes->titles[s->kiosk.wanted.mode],
+                 waits ? " .." : "");
+    gn_captions_set_split(s->text.captions, has_labels(s) ? s->split.at : -1.0);
+    gn_captions_set(s->text.captions, GN_CAPTION_LEFT,
+                    right[0] ? modes->titles[s->split.left] : NULL, now_ns);
+    gn_captions_set(s->text.captions, GN_CAPTION_RIGHT, right, now_ns);
+}
+
 static const char *mode_text(const struct gn_show_screen *s, const struct gn_kiosk_view *view,
                              char *out, size_t size) {
     const struct gn_show_modes *modes = &s->show->modes;
     const char *title = modes->titles[view->caption_mode];
     const bool waits = view->mode != view->caption_mode, /* the picture is not of that yet */
         only = modes->count == 1 && !s->rules.names_first && !s->rules.replays;
-    if (s->split.on)
-        snprintf(out, size, "%s | %s%s", modes->titles[s->split.left],
-                 s->truth.on ? gn_techniques[GN_TECHNIQUE_TRUTH].title : title, waits ? " .." : "");
-    else
-        snprintf(out, size, "%s%s", title, waits ? " .." : only ? ": the only mode" : "");
+    snprintf(out, size, "%s%s", title, waits ? " .." : only ? ": the only mode" : "");
     return out;
 }
 
@@ -95,7 +112,9 @@ static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_v
     struct gn_show_text *t = &s->text;
     char title[120];
     switch (view->caption) {
-    case GN_KIOSK_CAPTION_MODE: return mode_text(s, view, t->change, sizeof t->change);
+    case GN_KIOSK_CAPTION_MODE:
+        if (has_labels(s)) return NULL;
+        return mode_text(s, view, t->change, sizeof t->change);
     case GN_KIOSK_CAPTION_SCENE:
         snprintf(t->change, sizeof t->change, "%s%s",
                  write_title(s->show->scenes.paths[view->caption_scene], title),
@@ -142,6 +161,7 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     t->bar = progress_percent(s, now_ns);
     gn_captions_set(t->captions, GN_CAPTION_TEXT, loading, now_ns);
     write_card(s, now_ns);
+    write_labels(s, view, now_ns);
     gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
     if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
         t->view = *view;

@@ -104,7 +104,8 @@ static void blend(const struct gn_caption_run *run) {
                 const double left = q->ground ? shade : 1 - covered;
                 light[at].left *= left;
                 light[at].added = light[at].added * left + covered;
-                light[at].strength = run->alpha[q->caption];
+                light[at].strength =
+                    run->alpha[q->caption] * (q->ground ? 1 - q->faint / 255.0 : 1);
             }
     }
 }
