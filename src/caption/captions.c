@@ -99,8 +99,13 @@ float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns) {
     return left_ns > 0 ? (float)left_ns / (float)GN_CAPTION_FADE_NS : 0.0f;
 }
 
-static float alpha_at(const struct caption *caption, enum gn_caption_kind kind, int64_t now_ns) {
-    return caption->text[0] ? gn_caption_alpha(kind, now_ns - caption->set_ns) : 0.0f;
+/* A bar needs no text. */
+static bool is_there(const struct gn_captions *c, enum gn_caption_kind kind) {
+    return c->captions[kind].text[0] || (kind == GN_CAPTION_TEXT && c->bar_percent > 0);
+}
+
+static float alpha_at(const struct gn_captions *c, enum gn_caption_kind kind, int64_t now_ns) {
+    return is_there(c, kind) ? gn_caption_alpha(kind, now_ns - c->captions[kind].set_ns) : 0.0f;
 }
 
 int64_t gn_captions_next_ns(const struct gn_captions *c) {
@@ -108,7 +113,7 @@ int64_t gn_captions_next_ns(const struct gn_captions *c) {
     if (c->changed) return 0;
     for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
         const struct caption *caption = &c->captions[kind];
-        const float alpha = alpha_at(caption, kind, c->shown_ns);
+        const float alpha = alpha_at(c, kind, c->shown_ns);
         const int64_t fades_ns = caption->set_ns + lasts_ns[kind] - GN_CAPTION_FADE_NS;
         if (lasts_ns[kind] == 0 || alpha <= 0.0f) continue;
         if (alpha < 1.0f) return 0;
@@ -308,7 +313,7 @@ static void lay_out_split(struct gn_captions *c) {
 static void lay_out_all(struct gn_captions *c) {
     c->bottom_px = 0;
     c->run.quad_count = 0;
-    if (c->captions[GN_CAPTION_TEXT].text[0]) lay_out(c, GN_CAPTION_TEXT);
+    if (is_there(c, GN_CAPTION_TEXT)) lay_out(c, GN_CAPTION_TEXT);
     if (c->captions[GN_CAPTION_CARD].text[0]) lay_out(c, GN_CAPTION_CARD);
     if (c->captions[GN_CAPTION_RIGHT].text[0] && c->split >= 0.0) lay_out_split(c);
     if (c->captions[GN_CAPTION_INFO].text[0]) lay_out(c, GN_CAPTION_INFO);
@@ -320,7 +325,7 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
                                              uint32_t height_px, int64_t now_ns) {
     bool seen = false;
     for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
-        c->run.alpha[kind] = alpha_at(&c->captions[kind], kind, now_ns);
+        c->run.alpha[kind] = alpha_at(c, kind, now_ns);
         seen |= c->run.alpha[kind] > 0.0f;
     }
     c->shown_ns = now_ns;

@@ -28,7 +28,8 @@ bool gn_captions_open_font(struct gn_captions *captions, struct gn_err *err);
  * time starts again, if it has one, else nothing changes. */
 void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns);
-/* A bar under GN_CAPTION_TEXT, filled to that share, 0 to 1; below 0, as at first: no bar. */
+/* A bar under GN_CAPTION_TEXT, or alone where that has no text, filled to that share, 0 to 1; below
+ * 0, as at first: no bar. */
 void gn_captions_set_bar(struct gn_captions *captions, double share);
 /* The line of a split screen at that share of the width, with its handle; below 0, as at first:
  * none, and GN_CAPTION_LEFT and GN_CAPTION_RIGHT are not shown. */

@@ -237,7 +237,7 @@ void gn_page_build(const struct gn_page_style *style, const struct gn_page_font 
     }
     out->ground = out->bar = (struct gn_page_rect){0};
     if (style->to_px && b.width < ROOM_LINES * (int32_t)b.size.line_px) out->count = 0;
-    if (b.wide == 0 || out->count == 0) return;
+    if (!has_bar && (b.wide == 0 || out->count == 0)) return;
     if (has_bar) b.wide = b.width;
     const int32_t tall = b.y + 2 * above + bar, y = style->at_top ? margin_y : lowest - tall;
     const int32_t x = style->at_right ? right - b.wide - 2 * beside : left;

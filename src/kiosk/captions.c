@@ -54,22 +54,31 @@ static const int64_t PATIENCE_NS = GN_NS_PER_S / 10; /* shorter loads have no ba
 /* The first load, and others that take long. */
 static bool is_loading(const struct gn_show_screen *s, int64_t now_ns) {
     if (s->show->reload.first) return true;
-    return s->rules.caption_ns > 0 && gn_loader_number(s->show->scenes.loader) >= 0 &&
-           now_ns - s->show->scenes.load_begun_ns > PATIENCE_NS;
+    const bool works = gn_loader_number(s->show->scenes.loader) >= 0 || s->staged.loaded;
+    return s->rules.caption_ns > 0 && works && now_ns - s->show->scenes.load_begun_ns > PATIENCE_NS;
 }
 
 static const char *loading_path(const struct gn_show_screen *s) {
-    const int number = gn_loader_number(s->show->scenes.loader);
+    const int loads = gn_loader_number(s->show->scenes.loader),
+              number = loads < 0 && s->staged.loaded ? s->staged.loaded->number : loads;
     if (s->show->reload.options && (s->show->reload.first || number == GN_SHOW_RELOAD))
         return s->show->reload.options->settings->scene.path;
     return s->show->scenes.paths[number >= 0 ? number : s->scene];
 }
 
+static const double UPLOAD_SHARE = 0.2; /* the bar's last part */
+
 /* -1: no bar. */
 static int progress_percent(const struct gn_show_screen *s, int64_t now_ns) {
     const double done = gn_loader_progress(s->show->scenes.loader);
+    const struct gn_show_staged *staged = &s->staged;
     if (!is_loading(s, now_ns)) return -1;
-    return done < 0.0 ? 100 : (int)(100.0 * done); /* loaded; the upload remains */
+    if (done >= 0.0) return (int)(100.0 * (1.0 - UPLOAD_SHARE) * done);
+    const bool ends = staged->whole || staged->sent >= staged->all;
+    const double sent = !staged->loaded || staged->all == 0 ? 0.0
+                        : ends                              ? 1.0
+                               : (double)staged->sent / (double)staged->all;
+    return (int)(100.0 * (1.0 - UPLOAD_SHARE * (1.0 - sent)));
 }
 
 bool gn_show_bar_moves(const struct gn_show_screen *s) {
@@ -156,7 +165,7 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     /* captions of changes: a text is set only when it changes */
     char loading[200] = "", title[120];
     const bool loads = is_loading(s, now_ns);
-    if (loads)
+    if (loads && s->stage.display.ops->is_window) /* a visitor reads no names of files */
         snprintf(loading, sizeof loading, "Loading %s ..", write_title(loading_path(s), title));
     t->bar = progress_percent(s, now_ns);
     gn_captions_set(t->captions, GN_CAPTION_TEXT, loading, now_ns);

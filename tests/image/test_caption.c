@@ -161,7 +161,7 @@ static void test_it_is_white_on_dark(void **state) {
         if (added > 0.9999) {
             assert_true(shown[i][0] == 255 && shown[i][1] == 255 && shown[i][2] == 255);
             white++;
-        } else if (added == 0) {
+        } else if (added == 0 && light[i].strength >= 1) { /* corners are round */
             const double luminance = linear_from_srgb(shown[i][1] / 255.0);
             assert_true(1.05 / (luminance + 0.05) >= 7); /* WCAG 2.1, 1.4.6 */
             dark++;

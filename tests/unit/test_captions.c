@@ -425,6 +425,21 @@ static void test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page(void **sta
     assert_true(half[0] + half[1] < most[0]); /* only letters are left */
 }
 
+/* As in a kiosk, whose visitors read no names of files. */
+static void test_a_bar_needs_no_text(void **state) {
+    (void)state;
+    assert_null(run_at(0));
+    gn_captions_set_bar(captions, .25);
+    const struct gn_caption_run *run = run_at(0);
+    assert_non_null(run);
+    assert_int_equal(run->alpha[GN_CAPTION_TEXT], 1);
+    const struct gn_caption_quad ground = ground_of(run, GN_CAPTION_TEXT);
+    assert_in_range(ground.width, WIDTH * 85 / 100, WIDTH * 90 / 100);
+    assert_true(glyph_of(run, 0)->y > ground.y);
+    gn_captions_set_bar(captions, -1);
+    assert_null(run_at(0));
+}
+
 #define TEST(f) cmocka_unit_test_setup_teardown(f, setup, teardown)
 
 int main(void) {
@@ -441,6 +456,7 @@ int main(void) {
         TEST(test_text_grows_with_the_picture),
         TEST(test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page),
         TEST(test_no_text_is_no_run),
+        TEST(test_a_bar_needs_no_text),
         TEST(test_grounds_are_round),
         TEST(test_labels_are_at_the_line_while_it_is_there),
         TEST(test_what_is_missing_is_said_once),

@@ -167,6 +167,18 @@ static void test_labels_hug_the_line(void **state) {
         }
 }
 
+static void test_a_bar_alone(void **state) {
+    (void)state;
+    for (int i = 0; i < 2 * SIZES; i++) {
+        const uint32_t width = sizes[i / 2][i % 2], height = sizes[i / 2][1 - i % 2];
+        gn_page_build(&gn_page_styles[GN_CAPTION_TEXT], &font, "", width, height, 0, true, &page);
+        assert_int_equal(page.count, 0);
+        assert_true(is_within(page.bar, page.ground));
+        assert_true(page.ground.x >= (int32_t)width / 20);
+        assert_true(page.ground.y + page.ground.height <= (int32_t)(height - height / 20));
+    }
+}
+
 static void test_lines_from_right_to_left_begin_at_the_right(void **state) {
     (void)state;
     expect_at_all_sizes(GN_CAPTION_CARD, "A long title in Latin letters\nשעון\n12 ساعة\nEnd", true);
@@ -189,6 +201,7 @@ int main(void) {
         cmocka_unit_test(test_names_of_modes),
         cmocka_unit_test(test_sizes_are_shares_of_the_shorter_side),
         cmocka_unit_test(test_labels_hug_the_line),
+        cmocka_unit_test(test_a_bar_alone),
         cmocka_unit_test(test_lines_from_right_to_left_begin_at_the_right),
     };
     return RUN(tests);
