@@ -209,11 +209,12 @@ static void push_round(struct gn_captions *c, struct gn_caption_quad like,
     like.width = r->width, like.height = r->height - 2 * radius;
     push_quad(c, like);
     like.height = 1;
-    for (int32_t i = 0; i < 2 * radius; i++) {
-        const double up = radius - (i / 2) - 0.5,
+    for (int32_t i = 0; i < 2 * radius; i++) { /* from above and from below by turns */
+        const int32_t row = i / 2;
+        const double up = radius - row - 0.5,
                      inset = radius - sqrt((double)radius * radius - up * up);
         const int32_t whole = (int32_t)ceil(inset);
-        like.y = i % 2 ? r->y + r->height - 1 - i / 2 : r->y + i / 2;
+        like.y = i % 2 ? r->y + r->height - 1 - row : r->y + row;
         like.x = r->x + whole, like.width = r->width - 2 * whole, like.faint = 0;
         push_quad(c, like);
         like.faint = (uint8_t)(255.0 * (1.0 - (whole - inset)));
