@@ -164,6 +164,7 @@ COMPILE  = $(CC) $(ALL_CFLAGS) $(if $(WERROR),-Werror) -MMD -MP
 # ---- what there is to build ----------------------------------------------------------------
 # x.c needs the package x and x_none.c stands in for it: the list of such pairs
 OPTIONAL := src/display/osmesa:osmesa src/display/window/window:glfw3 src/caption/font_file:freetype2 \
+            src/caption/shaper:raqm \
             src/image/webp_read:libwebp src/image/webp_write:libwebp \
             src/image/zstd:libzstd \
             src/core/syscall_filter:libseccomp

@@ -11,12 +11,13 @@ run='libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri libgbm1 libdrm2'
 test_libraries='libcmocka-dev libx11-dev'
 test="clang clang-format clang-tidy lld groff-base xvfb $test_libraries"
 # for gnomon-import and its sandbox, a window, texts on the picture, textures, meshes
-optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libwebp-dev libzstd-dev libmeshoptimizer-dev libdraco-dev'
+optional_build='libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libraqm-dev libwebp-dev libzstd-dev libmeshoptimizer-dev libdraco-dev'
 optional_compiler=g++ # with libdraco, of gnomon-import
-optional_run='fonts-dejavu-core' # for those texts
+optional_run='fonts-dejavu-core libraqm0' # for those texts
 repository='apt-utils gpg gpg-agent'
 optional_test="libosmesa6-dev $repository" # not in every Debian
-optional_test_own='tmux python3-ephem' # a terminal that scripts can type in; where the sun stands
+# a terminal that scripts can type in; where the sun stands; texts in twelve scripts, and a second opinion of them
+optional_test_own='tmux python3-ephem fonts-noto-core fonts-noto-cjk fonts-symbola pango1.0-tools'
 # fetches libraries for tests/angle, which are for a PC alone; node brings its own where it is not Debian's
 [ "$(uname -m)" != x86_64 ] || command -v npm > /dev/null || optional_npm=npm
 # without them the tests in virtual machines are skipped; those run on a PC alone
@@ -24,7 +25,7 @@ optional_board='qemu-system-x86 busybox-static kmod cpio xz-utils linux-source l
     kmscube kbd libdrm-tests gpiod'
 optional_board_arm64='qemu-system-arm gcc-aarch64-linux-gnu'
 optional_gpus='gcc-aarch64-linux-gnu'
-deb='build-essential dpkg-dev debhelper libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libosmesa6-dev git'
+deb='build-essential dpkg-dev debhelper libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libraqm-dev libosmesa6-dev git'
 deb_test='lintian desktop-file-utils appstream systemd'
 optional_deb='mmdebstrap' # for roots of another Debian or architecture, and to install in
 

@@ -30,7 +30,7 @@ BEGIN {
     foreign["drm"] = foreign["libdrm/"] = foreign["GLFW/"] = foreign["wayland"] = "display"
     foreign["gpiod.h"] = foreign["linux/input"] = "input"
     foreign["linux/cec"] = "display"
-    foreign["ft2build.h"] = foreign["freetype/"] = "caption"
+    foreign["ft2build.h"] = foreign["freetype/"] = foreign["raqm.h"] = "caption"
     foreign["ini.h"] = "options"
     foreign["jansson.h"] = "core shape scene bake kiosk cli import"
     foreign["png.h"] = foreign["turbojpeg.h"] = "image"

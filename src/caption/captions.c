@@ -1,16 +1,18 @@
 #include "caption/captions.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "caption/atlas.h"
 #include "caption/layout.h"
 #include "caption/page.h"
+#include "caption/shape.h"
 #include "core/arena.h"
 
 enum {
     TEXT_BYTES = 2048,
-    QUADS_MAX = 2560, /* more are not drawn */
+    QUADS_MAX = 4096, /* more are not drawn */
     MARK_SHARE = 80,  /* so many marks fill the picture's shorter side */
 };
 
@@ -27,10 +29,13 @@ struct gn_captions {
     struct caption captions[GN_CAPTION_KIND_COUNT];
     struct gn_font *font; /* NULL: not yet */
     struct gn_atlas atlas;
-    struct gn_page page; /* that was laid out last */
+    struct gn_page page;   /* that was laid out last */
+    struct gn_shape shape; /* of the line that was looked at last */
     struct gn_caption_run run;
     struct gn_caption_quad quads[QUADS_MAX];
+    char missing[512];    /* packages of fonts, and libraqm */
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
+    double split;         /* place of the line of a split screen; below 0: none */
     uint32_t bottom_px;   /* height in use at the picture's lower edge */
     int64_t shown_ns;     /* time of the last run */
     bool changed;         /* since then */
@@ -40,6 +45,7 @@ struct gn_captions {
 struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts) {
     struct gn_captions *c = gn_xalloc(1, sizeof *c);
     c->opts = *opts;
+    c->split = -1.0;
     return c;
 }
 
@@ -79,6 +85,12 @@ void gn_captions_set_bar(struct gn_captions *c, double share) {
     c->stale = c->changed = true;
 }
 
+void gn_captions_set_split(struct gn_captions *c, double at) {
+    if (c->split == at) return;
+    c->split = at;
+    c->stale = c->changed = true;
+}
+
 /* ---- time ---- */
 
 float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns) {
@@ -87,8 +99,13 @@ float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns) {
     return left_ns > 0 ? (float)left_ns / (float)GN_CAPTION_FADE_NS : 0.0f;
 }
 
-static float alpha_at(const struct caption *caption, enum gn_caption_kind kind, int64_t now_ns) {
-    return caption->text[0] ? gn_caption_alpha(kind, now_ns - caption->set_ns) : 0.0f;
+/* A bar needs no text. */
+static bool is_there(const struct gn_captions *c, enum gn_caption_kind kind) {
+    return c->captions[kind].text[0] || (kind == GN_CAPTION_TEXT && c->bar_percent > 0);
+}
+
+static float alpha_at(const struct gn_captions *c, enum gn_caption_kind kind, int64_t now_ns) {
+    return is_there(c, kind) ? gn_caption_alpha(kind, now_ns - c->captions[kind].set_ns) : 0.0f;
 }
 
 int64_t gn_captions_next_ns(const struct gn_captions *c) {
@@ -96,7 +113,7 @@ int64_t gn_captions_next_ns(const struct gn_captions *c) {
     if (c->changed) return 0;
     for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
         const struct caption *caption = &c->captions[kind];
-        const float alpha = alpha_at(caption, kind, c->shown_ns);
+        const float alpha = alpha_at(c, kind, c->shown_ns);
         const int64_t fades_ns = caption->set_ns + lasts_ns[kind] - GN_CAPTION_FADE_NS;
         if (lasts_ns[kind] == 0 || alpha <= 0.0f) continue;
         if (alpha < 1.0f) return 0;
@@ -115,7 +132,13 @@ static struct gn_page_size resize_font(void *data, uint32_t line_px) {
 
 static int32_t advance_of(void *data, uint32_t code) {
     struct gn_captions *c = data;
-    return gn_atlas_glyph(&c->atlas, c->font, code)->advance_px;
+    return gn_layout_is_joiner(code) ? 0 : gn_atlas_glyph(&c->atlas, c->font, code)->advance_px;
+}
+
+static int32_t width_of(void *data, const char *begin, const char *end) {
+    struct gn_captions *c = data;
+    gn_shape_line(&c->atlas, c->font, begin, end, false, &c->shape);
+    return c->shape.width_px;
 }
 
 /* Clips the quad to the picture and adds it. */
@@ -129,24 +152,6 @@ static void push_quad(struct gn_captions *c, struct gn_caption_quad quad) {
     quad.width = (right < width ? right : width) - quad.x;
     quad.height = (bottom < height ? bottom : height) - quad.y;
     c->quads[c->run.quad_count++] = quad;
-}
-
-static int32_t push_text(struct gn_captions *c, struct gn_caption_quad like, const char *begin,
-                         const char *end) {
-    const int32_t base = like.y;
-    for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;) {
-        const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, code);
-        struct gn_caption_quad quad = like;
-        quad.x += g->left;
-        quad.y = base - g->top;
-        quad.width = g->width_px;
-        quad.height = g->height_px;
-        quad.atlas_x = g->x;
-        quad.atlas_y = g->y;
-        push_quad(c, quad);
-        like.x += g->advance_px;
-    }
-    return like.x;
 }
 
 /* A white rectangle, of squares that are a line high at most. */
@@ -180,31 +185,68 @@ static void push_bar(struct gn_captions *c, enum gn_caption_kind kind,
 
 static void push_line(struct gn_captions *c, enum gn_caption_kind kind,
                       const struct gn_page_line *line) {
-    static const char gap[] = GN_LAYOUT_GAP;
-    struct gn_caption_quad like = {.x = line->rect.x,
-                                   .y = line->rect.y + (int32_t)line->size.ascent_px,
-                                   .caption = (uint8_t)kind,
-                                   .weak = line->is_label};
+    const int32_t base = line->rect.y + (int32_t)line->size.ascent_px;
     if (c->font->line_px != line->size.line_px) gn_font_resize(c->font, line->size.line_px);
-    like.x = push_text(c, like, line->begin, line->end);
-    if (line->cut) push_text(c, like, gap, gap + sizeof gap - 1);
+    gn_shape_line(&c->atlas, c->font, line->begin, line->end, line->cut, &c->shape);
+    for (uint32_t i = 0; i < c->shape.count; i++) {
+        const struct gn_font_place *place = &c->shape.places[i];
+        const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, place->glyph);
+        push_quad(c, (struct gn_caption_quad){.x = line->rect.x + place->x_px + g->left,
+                                              .y = base - place->y_px - g->top,
+                                              .width = g->width_px,
+                                              .height = g->height_px,
+                                              .atlas_x = g->x,
+                                              .atlas_y = g->y,
+                                              .caption = (uint8_t)kind,
+                                              .faint = line->is_label ? GN_CAPTION_WEAK : 0});
+    }
+}
+
+/* A rectangle with round corners, of rows where they are: its edge there is fainter. */
+static void push_round(struct gn_captions *c, struct gn_caption_quad like,
+                       const struct gn_page_rect *r, int32_t radius) {
+    like.x = r->x, like.y = r->y + radius;
+    like.width = r->width, like.height = r->height - 2 * radius;
+    push_quad(c, like);
+    like.height = 1;
+    for (int32_t i = 0; i < 2 * radius; i++) { /* from above and from below by turns */
+        const int32_t row = i / 2;
+        const double up = radius - row - 0.5,
+                     inset = radius - sqrt((double)radius * radius - up * up);
+        const int32_t whole = (int32_t)ceil(inset);
+        like.y = i % 2 ? r->y + r->height - 1 - row : r->y + row;
+        like.x = r->x + whole, like.width = r->width - 2 * whole, like.faint = 0;
+        push_quad(c, like);
+        like.faint = (uint8_t)(255.0 * (1.0 - (whole - inset)));
+        if (like.faint > 250 || whole == 0) continue;
+        like.x = r->x + whole - 1, like.width = 1;
+        push_quad(c, like);
+        like.x = r->x + r->width - whole;
+        push_quad(c, like);
+    }
+}
+
+static void push_ground(struct gn_captions *c, enum gn_caption_kind kind,
+                        const struct gn_page_rect *ground) {
+    const struct gn_caption_quad like = {.caption = (uint8_t)kind, .ground = true};
+    push_round(c, like, ground, (int32_t)c->font->line_px / 5);
 }
 
 static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     const bool has_bar = kind == GN_CAPTION_TEXT && c->bar_percent > 0;
-    const struct gn_page_font font = {.resize = resize_font, .advance_px = advance_of, .data = c};
-    const struct gn_page_style *style = &gn_page_styles[kind];
+    const struct gn_page_font font = {
+        .resize = resize_font, .advance_px = advance_of, .line_px = width_of, .data = c};
+    const bool beside = kind == GN_CAPTION_LEFT || kind == GN_CAPTION_RIGHT;
+    const struct gn_page_style placed =
+        beside ? gn_page_beside(kind, c->run.width_px, c->run.height_px, c->split)
+               : gn_page_styles[kind];
+    const struct gn_page_style *style = &placed;
     struct gn_page *page = &c->page;
     gn_page_build(style, &font, c->captions[kind].text, c->run.width_px, c->run.height_px,
                   style->at_top ? 0 : c->bottom_px, has_bar, page);
     if (page->ground.width == 0) return;
     const struct gn_page_rect *ground = &page->ground;
-    push_quad(c, (struct gn_caption_quad){.x = ground->x,
-                                          .y = ground->y,
-                                          .width = ground->width,
-                                          .height = ground->height,
-                                          .caption = (uint8_t)kind,
-                                          .ground = true});
+    push_ground(c, kind, ground);
     for (uint32_t i = 0; i < page->count; i++) push_line(c, kind, &page->lines[i]);
     if (has_bar) push_bar(c, kind, &page->bar);
     if (!style->at_top) c->bottom_px += (uint32_t)ground->height + c->font->line_px * 7 / 20;
@@ -227,14 +269,56 @@ static void lay_out_mark(struct gn_captions *c) {
                    .x = x + side / 2, .y = y + side / 2, .width = side, .height = side});
 }
 
-/* From below: the text, above it the card and the mode, which is drawn last. */
+/* Says once what each text lacks that is shown. */
+static void find_missing(struct gn_captions *c) {
+    const size_t before = strlen(c->missing);
+    for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++)
+        if (kind != GN_CAPTION_MARK)
+            gn_shape_find_missing(c->font, c->captions[kind].text, c->missing, sizeof c->missing);
+    const char *more = c->missing + before;
+    if (*more)
+        gn_warn(c->opts.warnings, "texts: missing here: %s; install the packages in brackets",
+                more + (before ? strspn(more, ", ") : 0));
+}
+
+const char *gn_captions_missing(const struct gn_captions *c) { return c->missing; }
+
+/* White on a dark rim. */
+static void lay_out_handle(struct gn_captions *c) {
+    const struct gn_page_rect rim = gn_page_handle(c->run.width_px, c->run.height_px, c->split);
+    const int32_t wide = rim.width / 8 + 1, side = rim.width - 2 * wide;
+    const struct gn_page_rect disc = {rim.x + wide, rim.y + wide, side, side};
+    struct gn_caption_quad like = {.caption = GN_CAPTION_RIGHT, .ground = true};
+    push_round(c, like, &rim, rim.width / 2);
+    gn_font_resize(c->font, 2 * (uint32_t)side); /* a solid is half a line high */
+    const struct gn_atlas_glyph *g = gn_atlas_glyph(&c->atlas, c->font, GN_ATLAS_SOLID);
+    like.ground = false;
+    like.atlas_x = g->x;
+    like.atlas_y = g->y;
+    if (g->width_px >= side) push_round(c, like, &disc, side / 2);
+}
+
+/* Side by side at one height. */
+static void lay_out_split(struct gn_captions *c) {
+    const uint32_t bottom_px = c->bottom_px;
+    lay_out(c, GN_CAPTION_LEFT);
+    const uint32_t left_px = c->bottom_px;
+    c->bottom_px = bottom_px;
+    lay_out(c, GN_CAPTION_RIGHT);
+    if (c->bottom_px < left_px) c->bottom_px = left_px;
+    lay_out_handle(c);
+}
+
+/* From below: the text, above it the card, labels of a split screen and the mode, which is drawn
+ * last. */
 static void lay_out_all(struct gn_captions *c) {
-    static const enum gn_caption_kind order[] = {GN_CAPTION_TEXT, GN_CAPTION_CARD, GN_CAPTION_INFO,
-                                                 GN_CAPTION_MODE};
     c->bottom_px = 0;
     c->run.quad_count = 0;
-    for (size_t i = 0; i < sizeof order / sizeof *order; i++)
-        if (c->captions[order[i]].text[0]) lay_out(c, order[i]);
+    if (is_there(c, GN_CAPTION_TEXT)) lay_out(c, GN_CAPTION_TEXT);
+    if (c->captions[GN_CAPTION_CARD].text[0]) lay_out(c, GN_CAPTION_CARD);
+    if (c->captions[GN_CAPTION_RIGHT].text[0] && c->split >= 0.0) lay_out_split(c);
+    if (c->captions[GN_CAPTION_INFO].text[0]) lay_out(c, GN_CAPTION_INFO);
+    if (c->captions[GN_CAPTION_MODE].text[0]) lay_out(c, GN_CAPTION_MODE);
     if (c->captions[GN_CAPTION_MARK].text[0]) lay_out_mark(c);
 }
 
@@ -242,7 +326,7 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
                                              uint32_t height_px, int64_t now_ns) {
     bool seen = false;
     for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
-        c->run.alpha[kind] = alpha_at(&c->captions[kind], kind, now_ns);
+        c->run.alpha[kind] = alpha_at(c, kind, now_ns);
         seen |= c->run.alpha[kind] > 0.0f;
     }
     c->shown_ns = now_ns;
@@ -261,6 +345,7 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
             gn_atlas_reset(&c->atlas);
             lay_out_all(c);
         }
+        find_missing(c);
         gn_atlas_seal(&c->atlas);
         c->stale = false;
     }

@@ -14,7 +14,8 @@ struct gn_captions;
 struct gn_captions_opts { /* zero means the default written beside */
     const char
         *font; /* file; NULL: the first found in the folders of packages; "": the built-in font */
-    struct gn_warnings *warnings; /* receives a warning when a font is not used; none */
+    struct gn_warnings
+        *warnings; /* receives a warning when a font is not used, or one is missing; none */
 };
 /* Reads nothing yet: the font is opened when a text is first laid out. The texts in opts must
  * outlive it. */
@@ -27,8 +28,12 @@ bool gn_captions_open_font(struct gn_captions *captions, struct gn_err *err);
  * time starts again, if it has one, else nothing changes. */
 void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns);
-/* A bar under GN_CAPTION_TEXT, filled to that share, 0 to 1; below 0, as at first: no bar. */
+/* A bar under GN_CAPTION_TEXT, or alone where that has no text, filled to that share, 0 to 1; below
+ * 0, as at first: no bar. */
 void gn_captions_set_bar(struct gn_captions *captions, double share);
+/* The line of a split screen at that share of the width, with its handle; below 0, as at first:
+ * none, and GN_CAPTION_LEFT and GN_CAPTION_RIGHT are not shown. */
+void gn_captions_set_split(struct gn_captions *captions, double at);
 /* Opacity of a caption that was set that long ago: 1, fading at the end of its time, then 0.
  * Pure. */
 float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);
@@ -38,6 +43,10 @@ float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);
  * changed. */
 const struct gn_caption_run *gn_captions_run(struct gn_captions *captions, uint32_t width_px,
                                              uint32_t height_px, int64_t now_ns);
+/* What this machine lacks to draw the texts so far: as gn_shape_find_missing() writes it; "":
+ * nothing.
+ */
+const char *gn_captions_missing(const struct gn_captions *captions);
 /* When captions next change the picture since the last run: a time, 0 for at once, INT64_MAX for
  * never. */
 int64_t gn_captions_next_ns(const struct gn_captions *captions);

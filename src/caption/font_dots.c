@@ -43,8 +43,14 @@ static bool render_glyph(struct gn_font *font, uint32_t code, struct gn_glyph *o
 
 static void close_dots(struct gn_font *font) { free(font); }
 
+static bool has_dots(struct gn_font *font, uint32_t code) {
+    (void)font;
+    return gn_dot_font_rows(code);
+}
+
 struct gn_font *gn_font_open_dots(void) {
-    static const struct gn_font_ops ops = {resize_dots, render_glyph, close_dots};
+    static const struct gn_font_ops ops = {
+        .resize = resize_dots, .glyph = render_glyph, .close = close_dots, .has = has_dots};
     struct dots *d = gn_xalloc(1, sizeof *d);
     d->font.ops = &ops;
     resize_dots(&d->font, GN_DOT_FONT_HEIGHT);

@@ -1,8 +1,10 @@
 #include "caption/page.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "caption/layout.h"
+#include "caption/script.h"
 
 enum {
     LINE_MIN_PX = 8,
@@ -10,6 +12,8 @@ enum {
     TWO_COLUMNS_PX = 900,
     TITLE_LINES = 2,
     VALUE_LINES = 3,
+    HANDLE_SHARE = 24, /* so many handles fill the picture's shorter side */
+    ROOM_LINES = 3,    /* a label has at least so many heights of a line */
     WRAPPED_MAX = 32,
 };
 
@@ -17,6 +21,8 @@ const struct gn_page_style gn_page_styles[GN_CAPTION_KIND_COUNT] = {
     [GN_CAPTION_INFO] = {.title_share = 18, .share = 30, .columns = true, .at_top = true},
     [GN_CAPTION_MODE] = {.share = 18, .most_lines = 2, .wraps = true},
     [GN_CAPTION_TEXT] = {.share = 24, .most_lines = 8, .wraps = true},
+    [GN_CAPTION_LEFT] = {.share = 24, .most_lines = 2, .wraps = true, .at_right = true},
+    [GN_CAPTION_RIGHT] = {.share = 24, .most_lines = 2, .wraps = true},
     [GN_CAPTION_CARD] = {.title_share = 18, .share = 30, .most_lines = 10, .wraps = true},
 };
 
@@ -37,10 +43,9 @@ static uint32_t line_px_of(uint32_t share, uint32_t width, uint32_t height) {
 static const char *line_end(const char *text) { return text + strcspn(text, "\n"); }
 
 static int32_t width_of(const struct build *b, const char *begin, const char *end) {
-    int32_t width = 0;
-    for (uint32_t code; (code = gn_layout_next(&begin, end)) != 0;)
-        width += b->font->advance_px(b->font->data, code);
-    return width;
+    const struct gn_layout_opts opts = {
+        .advance_px = b->font->advance_px, .line_px = b->font->line_px, .data = b->font->data};
+    return gn_layout_width_px(&opts, begin, end);
 }
 
 /* At most `most` lines of that text, at x; how wide the widest is. */
@@ -51,6 +56,7 @@ static int32_t add_lines(struct build *b, const char *begin, const char *end, in
                                         .most_lines = most < WRAPPED_MAX ? most : WRAPPED_MAX,
                                         .wraps = wraps,
                                         .advance_px = b->font->advance_px,
+                                        .line_px = b->font->line_px,
                                         .data = b->font->data};
     const uint32_t count = gn_layout_build(&opts, begin, end, lines);
     int32_t widest = 0;
@@ -144,6 +150,28 @@ static void add_columns(struct build *b, const char *text) {
     if (b->y < bottom) b->y = bottom;
 }
 
+/* ---- beside the line of a split screen ---- */
+
+struct gn_page_rect gn_page_handle(uint32_t width_px, uint32_t height_px, double at) {
+    const int32_t side =
+                      (int32_t)((width_px < height_px ? width_px : height_px) / HANDLE_SHARE + 8) /
+                      2 * 2,
+                  line = (int32_t)lround(at * width_px);
+    return (struct gn_page_rect){line - side / 2, ((int32_t)height_px - side) / 2, side, side};
+}
+
+struct gn_page_style gn_page_beside(enum gn_caption_kind kind, uint32_t width_px,
+                                    uint32_t height_px, double at) {
+    struct gn_page_style style = gn_page_styles[kind];
+    const int32_t margin = (int32_t)width_px / 20 + 1, most = (int32_t)width_px - margin,
+                  handle = gn_page_handle(width_px, height_px, at).width,
+                  line = (int32_t)lround(at * width_px);
+    const int32_t left_to = line - handle / 4, right_from = line + handle / 4;
+    style.from_px = style.at_right || right_from < margin ? margin : right_from;
+    style.to_px = !style.at_right || left_to > most ? most : left_to < 1 ? 1 : left_to;
+    return style;
+}
+
 /* ---- a page ---- */
 
 static struct gn_page_size resize(struct build *b, uint32_t line_px) {
@@ -180,6 +208,14 @@ static void add_all(struct build *b, const char *text, uint32_t line_px) {
     b->wide = wide > title ? wide : title;
 }
 
+/* By its first letter. */
+static bool runs_from_right(const struct gn_page_line *line) {
+    const char *at = line->begin;
+    for (uint32_t code; (code = gn_layout_next(&at, line->end)) != 0;)
+        if (gn_script_is_rtl(code) || code >= 'A') return gn_script_is_rtl(code);
+    return false;
+}
+
 void gn_page_build(const struct gn_page_style *style, const struct gn_page_font *font,
                    const char *text, uint32_t width_px, uint32_t height_px, uint32_t used_px,
                    bool has_bar, struct gn_page *out) {
@@ -187,26 +223,31 @@ void gn_page_build(const struct gn_page_style *style, const struct gn_page_font 
     struct build b = {.style = style, .font = font, .out = out};
     const int32_t margin_x = (int32_t)width_px / 20 + 1, margin_y = (int32_t)height_px / 20 + 1,
                   lowest = (int32_t)height_px - margin_y - (int32_t)used_px;
+    const int32_t left = style->to_px ? style->from_px : margin_x,
+                  right = style->to_px ? style->to_px : (int32_t)width_px - margin_x;
     int32_t beside = 0, above = 0, bar = 0;
     for (;; line_px = line_px * 9 / 10) { /* a page that is too high gets smaller lines */
         resize(&b, line_px);
         beside = (int32_t)b.size.line_px * 3 / 5, above = (int32_t)b.size.line_px * 7 / 20;
         bar = has_bar ? (int32_t)b.size.line_px * 2 / 3 : 0;
-        b.width = (int32_t)width_px - 2 * (margin_x + beside);
+        b.width = right - left - 2 * beside;
         b.height = lowest - margin_y - 2 * above - bar;
         add_all(&b, text, line_px);
         if (!style->columns || b.y <= b.height || line_px * 9 / 10 < LINE_MIN_PX) break;
     }
     out->ground = out->bar = (struct gn_page_rect){0};
-    if (b.wide == 0) return;
+    if (style->to_px && b.width < ROOM_LINES * (int32_t)b.size.line_px) out->count = 0;
+    if (!has_bar && (b.wide == 0 || out->count == 0)) return;
     if (has_bar) b.wide = b.width;
     const int32_t tall = b.y + 2 * above + bar, y = style->at_top ? margin_y : lowest - tall;
-    out->ground = (struct gn_page_rect){margin_x, y, b.wide + 2 * beside, tall};
+    const int32_t x = style->at_right ? right - b.wide - 2 * beside : left;
+    out->ground = (struct gn_page_rect){x, y, b.wide + 2 * beside, tall};
     for (uint32_t i = 0; i < out->count; i++) {
-        out->lines[i].rect.x += margin_x + beside;
+        const bool aligned = !style->columns && runs_from_right(&out->lines[i]);
+        out->lines[i].rect.x += x + beside + (aligned ? b.wide - out->lines[i].rect.width : 0);
         out->lines[i].rect.y += y + above;
     }
     if (has_bar)
-        out->bar = (struct gn_page_rect){margin_x + beside, y + above + b.y + bar / 4, b.wide,
+        out->bar = (struct gn_page_rect){x + beside, y + above + b.y + bar / 4, b.wide,
                                          (int32_t)b.size.line_px / 3};
 }

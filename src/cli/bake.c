@@ -33,10 +33,7 @@ static void measure_scene(const struct gn_scene *s, struct measures *m) {
     m->vertices = s->buffers.vertex_count;
     m->triangles = s->buffers.index_count / 3;
     m->scene_bytes = s->memory.bytes;
-    m->gpu_bytes = gn_scene_index_bytes(s) + gn_scene_deformation_bytes(s) +
-                   (uint64_t)gn_scene_vertex_bytes(s) * s->buffers.vertex_count;
-    for (uint32_t i = 0; i < s->pictures.image_count; i++)
-        m->gpu_bytes += gn_scene_image_bytes(&s->pictures.images[i]);
+    m->gpu_bytes = gn_scene_gpu_bytes(s);
 }
 
 /* Loads the bytes as a scene, which must succeed, and measures that. */

@@ -7,7 +7,9 @@
 #include <sys/stat.h>
 
 #include "caption/font.h"
+#include "caption/shape.h"
 #include "cli/commands.h"
+#include "core/file.h"
 #include "kiosk/control/listen.h"
 #include "options/args.h"
 #include "options/binding.h"
@@ -155,6 +157,28 @@ static void check_names(struct check *c, const struct gn_settings *s, struct gn_
          err);
 }
 
+/* Boxes would stand for characters that no font here has: titles of modes, scenes, cameras, clips.
+ */
+static void check_texts(const struct check *c, const struct gn_options *o,
+                        const struct gn_settings *s) {
+    char missing[400] = "";
+    struct gn_font *font = gn_font_open_file(s->render.font, NULL);
+    for (int i = 0; font && i < o->mode_count; i++)
+        gn_shape_find_missing(font, o->modes[i].name, missing, sizeof missing);
+    for (int i = 0; font && i < c->scene_count; i++) {
+        const struct gn_scene *scene = c->scenes[i];
+        if (c->paths[i])
+            gn_shape_find_missing(font, gn_file_name(c->paths[i]), missing, sizeof missing);
+        for (uint32_t k = 0; scene && k < scene->camera_count; k++)
+            gn_shape_find_missing(font, scene->cameras[k].name, missing, sizeof missing);
+        for (uint32_t k = 0; scene && k < scene->animation.clip_count; k++)
+            gn_shape_find_missing(font, scene->animation.clips[k].name, missing, sizeof missing);
+    }
+    gn_font_close(font);
+    if (missing[0])
+        gn_warn(c->warnings, "texts: missing here: %s; install the packages in brackets", missing);
+}
+
 /* ---- what a kiosk makes of it
  * -------------------------------------------------------------------------- */
 
@@ -261,6 +285,7 @@ bool gn_cli_check(const struct gn_options *options, struct gn_warnings *warnings
         }
         check_clips(&c, options->buttons, err);
         check_lights(&c, again.settings);
+        check_texts(&c, options, again.settings);
         if (again.settings->run.here) gn_cli_check_here(options, c.errors, warnings);
     } else {
         note(&c, false, err);

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "caption/shape.h"
 #include "cli/commands.h"
 #include "cli/doctor_report.h"
 #include "cli/report.h"
@@ -115,6 +116,17 @@ static bool check_backends(struct gn_doctor_report *report, const struct gn_sett
     return true;
 }
 
+/* In which scripts texts on the picture are drawn. */
+static void look_at_fonts(struct gn_doctor_report *report, const struct gn_settings *settings) {
+    struct gn_err err = {0};
+    struct gn_font *font = gn_font_open_file(settings->render.font, &err);
+    if (font)
+        gn_shape_find_missing(font, gn_shape_samples, report->texts, sizeof report->texts);
+    else
+        snprintf(report->texts, sizeof report->texts, "all but ASCII (%s)", err.text);
+    gn_font_close(font);
+}
+
 bool gn_doctor_look(struct gn_doctor_report *report, const struct gn_settings *settings,
                     struct gn_err *err) {
     const char *wanted = settings->display.backend;
@@ -124,6 +136,7 @@ bool gn_doctor_look(struct gn_doctor_report *report, const struct gn_settings *s
     gn_machine_read(&report->machine, "");
     gn_health_read(&report->health, "");
     gn_input_list_lines(&report->input);
+    look_at_fonts(report, settings);
     for (int i = 0; i < report->machine.device_count; i++) {
         struct gn_device *device = &report->machine.devices[i];
         if (device->kind == GN_DEVICE_CARD)

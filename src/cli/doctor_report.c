@@ -116,6 +116,9 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to) {
     fprintf(to, "\n  %-11s %s; groups", "user", m->user);
     for (int i = 0; i < m->group_count; i++) fprintf(to, " %s", m->groups[i]);
 
+    fprintf(to, "\n  %-11s %s%s", "texts",
+            report->texts[0] ? "missing: " : "in all scripts that gnomon knows", report->texts);
+
     fprintf(to, "\n\nBackends\n");
     for (int i = 0; i < report->backend_count; i++) {
         const struct gn_doctor_backend *b = &report->backends[i];
@@ -238,12 +241,13 @@ json_t *gn_doctor_json(const struct gn_doctor_report *report) {
                                         text_json(c->status), "mode", text_json(c->mode), "modes",
                                         text_json(c->modes), "monitor", text_json(c->monitor)));
     }
-    json_t *all = json_pack("{ss sb so so so so so so so so}", "version", GN_VERSION, "can_draw",
-                            draws, "machine", machine, "backends", backends, "gpu",
-                            draws ? gpu_json(&report->backends[report->chosen]) : json_null(),
-                            "cards", devices_json(report, false), "connectors", connectors, "gpio",
-                            devices_json(report, true), "input", gn_doctor_input_json(report),
-                            "problems", gn_problem_json(&report->problems));
+    json_t *all =
+        json_pack("{ss sb so so so so so so so so so}", "version", GN_VERSION, "can_draw", draws,
+                  "machine", machine, "backends", backends, "gpu",
+                  draws ? gpu_json(&report->backends[report->chosen]) : json_null(), "cards",
+                  devices_json(report, false), "connectors", connectors, "gpio",
+                  devices_json(report, true), "texts_missing", text_json(report->texts), "input",
+                  gn_doctor_input_json(report), "problems", gn_problem_json(&report->problems));
     if (all && report->self_test)
         json_object_set_new(all, "self_test", gn_selftest_json(report->self_test));
     return all;

@@ -30,7 +30,8 @@ struct gn_doctor_report {
     struct gn_input_list input;
     struct gn_doctor_backend backends[GN_DOCTOR_BACKENDS];
     int backend_count;
-    int chosen; /* index of the backend whose GPU is described; -1: none opens */
+    int chosen;      /* index of the backend whose GPU is described; -1: none opens */
+    char texts[512]; /* scripts without a font here, and packages to install; "": none */
     struct gn_problem_list problems;
     const struct gn_selftest *self_test; /* NULL: not asked for, or it did not start */
 };
@@ -62,8 +63,9 @@ void gn_doctor_print(const struct gn_doctor_report *report, FILE *to);
  * auto {technique: map format}}, cards [{path, kind (card, render), driver|null, group, readable,
  * writable, holder|null}], connectors [{name, status, mode|null, modes|null, monitor|null}], gpio
  * [{path, device|null, group, readable, writable, label|null, lines null or [{name|null, used,
- * consumer|null}] by number}], input {gpio_library|null, devices, devices_denied}, problems [{what,
- * cure}], self_test: see selftest.h; absent if not asked for. */
+ * consumer|null}] by number}], texts_missing|null (scripts, with packages), input
+ * {gpio_library|null, devices, devices_denied}, problems [{what, cure}], self_test: see selftest.h;
+ * absent if not asked for. */
 json_t *gn_doctor_json(const struct gn_doctor_report *report);
 bool gn_doctor_print_json(const struct gn_doctor_report *report, FILE *to, struct gn_err *err);
 

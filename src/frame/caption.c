@@ -48,7 +48,7 @@ static void add_quads(struct gn_frame *frame, const struct gn_caption_run *run, 
         struct gn_caption_quad q = run->quads[i];
         q.x += x;
         q.y += y;
-        const float alpha = run->alpha[q.caption] * (q.weak ? GN_CAPTION_WEAK : 1.0f);
+        const float alpha = run->alpha[q.caption] * (float)(255 - q.faint) / 255.0f;
         if (alpha > 0.0f) add_rectangle(frame, &q, alpha);
     }
     *seen = (struct bounds){seen->left + x, seen->top + y, seen->right + x, seen->bottom + y};

@@ -219,9 +219,13 @@ static bool work_on_staged(struct gn_show_screen *s) {
         return !(staged->looks.ready >> mode & 1) &&
                warm_mode(s, &staged->looks, &staged->view, mode, true);
 
+    /* its bytes are counted for the bar */
+    staged->sent += SLICE_BYTES;
     /* upload it; after a lost context the upload begins again */
     if (!staged->view.pose) {
         gn_gl_stage(s->stage.gl, loaded->scene);
+        staged->sent = 0;
+        staged->all = gn_scene_gpu_bytes(loaded->scene);
         staged->view.pose = &loaded->pose;
     } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &staged->whole, &err)) {
         const int number = loaded->number;

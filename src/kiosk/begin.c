@@ -39,10 +39,11 @@ const char *gn_show_put_file(struct gn_options *o, const char *path) {
     return list.paths[0];
 }
 
-/* One black triangle on black, for the texts that are shown while the first scene loads. */
+/* One black triangle, seen by nobody, on the ground of messages (#202428): for what is shown while
+ * the first scene loads. */
 static const char nothing[] =
     "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_unlit\"],"
-    "\"scenes\":[{\"nodes\":[0],\"extras\":{\"gnomon_background\":[0,0,0]}}],"
+    "\"scenes\":[{\"nodes\":[0],\"extras\":{\"gnomon_background\":[0.01444,0.01764,0.02122]}}],"
     "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
     "\"material\":0}]}],\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0,0,0,1]},"
     "\"extensions\":{\"KHR_materials_unlit\":{}}}],"

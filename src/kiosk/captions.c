@@ -54,26 +54,56 @@ static const int64_t PATIENCE_NS = GN_NS_PER_S / 10; /* shorter loads have no ba
 /* The first load, and others that take long. */
 static bool is_loading(const struct gn_show_screen *s, int64_t now_ns) {
     if (s->show->reload.first) return true;
-    return s->rules.caption_ns > 0 && gn_loader_number(s->show->scenes.loader) >= 0 &&
-           now_ns - s->show->scenes.load_begun_ns > PATIENCE_NS;
+    const bool works = gn_loader_number(s->show->scenes.loader) >= 0 || s->staged.loaded;
+    return s->rules.caption_ns > 0 && works && now_ns - s->show->scenes.load_begun_ns > PATIENCE_NS;
 }
 
 static const char *loading_path(const struct gn_show_screen *s) {
-    const int number = gn_loader_number(s->show->scenes.loader);
+    const int loads = gn_loader_number(s->show->scenes.loader),
+              number = loads < 0 && s->staged.loaded ? s->staged.loaded->number : loads;
     if (s->show->reload.options && (s->show->reload.first || number == GN_SHOW_RELOAD))
         return s->show->reload.options->settings->scene.path;
     return s->show->scenes.paths[number >= 0 ? number : s->scene];
 }
 
+static const double UPLOAD_SHARE = 0.2; /* the bar's last part */
+
 /* -1: no bar. */
 static int progress_percent(const struct gn_show_screen *s, int64_t now_ns) {
     const double done = gn_loader_progress(s->show->scenes.loader);
+    const struct gn_show_staged *staged = &s->staged;
     if (!is_loading(s, now_ns)) return -1;
-    return done < 0.0 ? 100 : (int)(100.0 * done); /* loaded; the upload remains */
+    if (done >= 0.0) return (int)(100.0 * (1.0 - UPLOAD_SHARE) * done);
+    const bool ends = staged->whole || staged->sent >= staged->all;
+    const double sent = !staged->loaded || staged->all == 0 ? 0.0
+                        : ends                              ? 1.0
+                               : (double)staged->sent / (double)staged->all;
+    return (int)(100.0 * (1.0 - UPLOAD_SHARE * (1.0 - sent)));
 }
 
 bool gn_show_bar_moves(const struct gn_show_screen *s) {
     return progress_percent(s, gn_loop_now_ns(s->show->loop)) != s->text.bar;
+}
+
+/* A split screen names both of its modes as long as it is on. */
+static bool has_labels(const struct gn_show_screen *s) {
+    return s->split.on && s->rules.caption_ns > 0;
+}
+
+static void write_labels(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                         int64_t now_ns) {
+    const struct gn_show_modes *modes = &s->show->modes;
+    const bool waits = s->kiosk.wanted.mode != view->mode; /* its picture is not there yet */
+    char right[160] = "";
+    if (has_labels(s))
+        snprintf(right, sizeof right, "%s%s",
+                 s->truth.on ? gn_techniques[GN_TECHNIQUE_TRUTH].title
+                             : modes->titles[s->kiosk.wanted.mode],
+                 waits ? " .." : "");
+    gn_captions_set_split(s->text.captions, has_labels(s) ? s->split.at : -1.0);
+    gn_captions_set(s->text.captions, GN_CAPTION_LEFT,
+                    right[0] ? modes->titles[s->split.left] : NULL, now_ns);
+    gn_captions_set(s->text.captions, GN_CAPTION_RIGHT, right, now_ns);
 }
 
 static const char *mode_text(const struct gn_show_screen *s, const struct gn_kiosk_view *view,
@@ -82,11 +112,7 @@ static const char *mode_text(const struct gn_show_screen *s, const struct gn_kio
     const char *title = modes->titles[view->caption_mode];
     const bool waits = view->mode != view->caption_mode, /* the picture is not of that yet */
         only = modes->count == 1 && !s->rules.names_first && !s->rules.replays;
-    if (s->split.on)
-        snprintf(out, size, "%s | %s%s", modes->titles[s->split.left],
-                 s->truth.on ? gn_techniques[GN_TECHNIQUE_TRUTH].title : title, waits ? " .." : "");
-    else
-        snprintf(out, size, "%s%s", title, waits ? " .." : only ? ": the only mode" : "");
+    snprintf(out, size, "%s%s", title, waits ? " .." : only ? ": the only mode" : "");
     return out;
 }
 
@@ -95,7 +121,9 @@ static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_v
     struct gn_show_text *t = &s->text;
     char title[120];
     switch (view->caption) {
-    case GN_KIOSK_CAPTION_MODE: return mode_text(s, view, t->change, sizeof t->change);
+    case GN_KIOSK_CAPTION_MODE:
+        if (has_labels(s)) return NULL;
+        return mode_text(s, view, t->change, sizeof t->change);
     case GN_KIOSK_CAPTION_SCENE:
         snprintf(t->change, sizeof t->change, "%s%s",
                  write_title(s->show->scenes.paths[view->caption_scene], title),
@@ -137,11 +165,12 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     /* captions of changes: a text is set only when it changes */
     char loading[200] = "", title[120];
     const bool loads = is_loading(s, now_ns);
-    if (loads)
+    if (loads && s->stage.display.ops->is_window) /* a visitor reads no names of files */
         snprintf(loading, sizeof loading, "Loading %s ..", write_title(loading_path(s), title));
     t->bar = progress_percent(s, now_ns);
     gn_captions_set(t->captions, GN_CAPTION_TEXT, loading, now_ns);
     write_card(s, now_ns);
+    write_labels(s, view, now_ns);
     gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
     if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
         t->view = *view;

@@ -42,6 +42,7 @@ struct gn_show_staged {         /* a scene that is to be shown next, or a reload
     struct gn_loaded *loaded;   /* NULL: there is none */
     struct gn_view view;        /* of it, for its programs; its pose once the upload has begun */
     bool whole;                 /* all of it is on the GPU */
+    uint64_t sent, all;         /* bytes of it that are there, and of all of it, about */
     bool stale;                 /* dropped in a pause: gone after that frame */
     struct gn_show_looks looks; /* of it; a reload's has one, at 0 */
 };

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "caption/page.h"
 #include "kiosk/private.h"
 
 enum { REACH_PX = 12, LINE_PX = 2 }; /* of the mouse to each side of the line; the line's half */
@@ -62,14 +63,24 @@ const struct gn_plan *gn_split_draw_left(struct gn_show_screen *s, int64_t time_
     return plan && gn_gl_keep(s->stage.gl, err) ? plan : NULL;
 }
 
+static void fill_line(struct gn_gl *gl, uint32_t from, uint32_t to, uint32_t y, uint32_t top) {
+    gn_gl_fill(gl, &(struct gn_rect){from, y, to - from, top - y}, 0.0f);
+    if (to - from > 2) gn_gl_fill(gl, &(struct gn_rect){from + 1, y, to - from - 2, top - y}, 1.0f);
+}
+
 void gn_split_lay_over(struct gn_show_screen *s) {
     const struct gn_frame_opts *f = &s->stage.shown.opts;
     const uint32_t width = f->output.width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
                    from = at > LINE_PX ? at - LINE_PX : 0,
                    to = at + LINE_PX < width ? at + LINE_PX : width;
+    const struct gn_page_rect handle = gn_page_handle(width, f->output.height_px, s->split.at);
+    const uint32_t below = (uint32_t)handle.y, height = f->output.height_px,
+                   above = below + (uint32_t)handle.height;
     gn_gl_lay_beside(s->stage.gl, at);
-    gn_gl_fill(s->stage.gl, &(struct gn_rect){from, 0, to - from, f->output.height_px}, 0.0f);
-    if (to - from > 2)
-        gn_gl_fill(s->stage.gl, &(struct gn_rect){from + 1, 0, to - from - 2, f->output.height_px},
-                   1.0f);
+    if (s->rules.caption_ns == 0) { /* without a handle */
+        fill_line(s->stage.gl, from, to, 0, height);
+        return;
+    }
+    fill_line(s->stage.gl, from, to, 0, below);
+    fill_line(s->stage.gl, from, to, above, height);
 }

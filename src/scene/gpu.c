@@ -87,6 +87,14 @@ static uint32_t fit_textures(const struct gn_scene *scene, uint64_t most_bytes) 
     return px;
 }
 
+uint64_t gn_scene_gpu_bytes(const struct gn_scene *s) {
+    uint64_t bytes = gn_scene_index_bytes(s) + gn_scene_deformation_bytes(s) +
+                     (uint64_t)gn_scene_vertex_bytes(s) * s->buffers.vertex_count;
+    for (uint32_t i = 0; i < s->pictures.image_count; i++)
+        bytes += gn_scene_image_bytes(&s->pictures.images[i]);
+    return bytes;
+}
+
 bool gn_scene_count_gpu(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     for (uint32_t i = 0; i < scene->material_count; i++) mark_cutoff(scene, &scene->materials[i]);

@@ -468,6 +468,7 @@ int gn_scene_find_cutoff(const struct gn_scene *scene, const struct gn_material 
 uint64_t gn_scene_deformation_bytes(const struct gn_scene *scene);
 /* Size of a vertex in GPU memory. */
 uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);
+uint64_t gn_scene_gpu_bytes(const struct gn_scene *scene); /* all of these of a scene */
 
 /* By name, else by number; -1 and a usage error that lists all. NULL or "" finds the first. */
 int gn_scene_find_camera(const struct gn_scene *scene, const char *what, struct gn_err *err);

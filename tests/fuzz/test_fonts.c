@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "caption/atlas.h"
+#include "caption/shape.h"
 #include "core/clock.h"
 #include "core/file.h"
 #include "image/dice.h"
@@ -46,6 +47,10 @@ static size_t spoil(struct gn_dice *dice, uint8_t *data) {
     return size;
 }
 
+/* that libraqm shapes, where it is there: through tables of the font that nothing else reads */
+static const char letters[] = "A\xcc\x8aVA السلام שָׁלוֹם";
+static struct gn_shape shape;
+
 static bool holds(const struct gn_atlas *atlas, const struct gn_atlas_glyph *g) {
     return g->advance_px <= GN_FONT_GLYPH_PX_MAX && g->width_px <= GN_FONT_GLYPH_PX_MAX &&
            g->height_px <= GN_FONT_GLYPH_PX_MAX &&
@@ -69,6 +74,10 @@ static const char *try_font(struct gn_dice *dice, uint8_t *data, unsigned *opene
         for (const char *c = text; *c; c++)
             if (!holds(&atlas, gn_atlas_glyph(&atlas, font, (uint8_t)*c)))
                 wrong = "a glyph outside";
+        gn_shape_line(&atlas, font, letters, letters + sizeof letters - 1, true, &shape);
+        for (uint32_t i = 0; i < shape.count; i++)
+            if (!holds(&atlas, gn_atlas_glyph(&atlas, font, shape.places[i].glyph)))
+                wrong = "a shaped glyph outside";
     }
     gn_atlas_seal(&atlas);
     gn_atlas_reset(&atlas);

@@ -327,5 +327,8 @@ checks 2 'kiosk.ini:15: press: no mode "Nosuch"; expected "Plain", "Top", "Dial"
 printf '%s\n' '[kiosk]' 'screenshots = nowhere' > kiosk.ini
 checks 1 'kiosk.ini:2: screenshots: ' kiosk.ini
 checks 1 'missing.ini' missing.ini
+# a name in a script that no font has
+printf '%s\n' '[mode "Sun 𒀀"]' 'shadow = pcf' > kiosk.ini
+checks 0 'texts: missing here: U+12000 (no package is known)' kiosk.ini
 
 exit $bad

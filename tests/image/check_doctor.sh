@@ -33,7 +33,7 @@ fi
 
 EGL_LOG_LEVEL=debug LIBGL_DEBUG=verbose run 0
 quiet
-for word in Machine Backends 'GPU (' renderer vendor version textures proved 'map formats' chosen \
+for word in Machine texts Backends 'GPU (' renderer vendor version textures proved 'map formats' chosen \
     Cards GPIO Keys Problems 'kms ' 'window ' depth r16f rgba8; do
     says "$word"
 done
@@ -41,7 +41,7 @@ done
 run 0 --json
 quiet
 for field in version can_draw machine memory_mb groups backends opens why gpu renderer gles \
-    software max_texture_px proved not_proved map_formats auto cards connectors gpio input gpio_library devices_denied problems; do
+    software max_texture_px proved not_proved map_formats auto cards connectors gpio texts_missing input gpio_library devices_denied problems; do
     says "\"$field\":"
 done
 never '"self_test"'

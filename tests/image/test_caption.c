@@ -104,7 +104,8 @@ static void blend(const struct gn_caption_run *run) {
                 const double left = q->ground ? shade : 1 - covered;
                 light[at].left *= left;
                 light[at].added = light[at].added * left + covered;
-                light[at].strength = run->alpha[q->caption];
+                light[at].strength =
+                    run->alpha[q->caption] * (q->ground ? 1 - q->faint / 255.0 : 1);
             }
     }
 }
@@ -160,7 +161,7 @@ static void test_it_is_white_on_dark(void **state) {
         if (added > 0.9999) {
             assert_true(shown[i][0] == 255 && shown[i][1] == 255 && shown[i][2] == 255);
             white++;
-        } else if (added == 0) {
+        } else if (added == 0 && light[i].strength >= 1) { /* corners are round */
             const double luminance = linear_from_srgb(shown[i][1] / 255.0);
             assert_true(1.05 / (luminance + 0.05) >= 7); /* WCAG 2.1, 1.4.6 */
             dark++;

@@ -192,6 +192,31 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     gn_show_close(show);
 }
 
+/* Four fifths are the file and its pictures, the last one is the upload; it never goes back. */
+static void the_bar_counts_the_load_and_the_upload(void **state) {
+    (void)state;
+    struct gn_show *show = open_show(good);
+    help_show_frames(show, 2);
+    write_config(write_huge());
+    show->reloads = true;
+    int before = -1, loads = 0, uploads = 0, values[101] = {0};
+    const int64_t begun_ns = gn_clock_monotonic_ns();
+    while (!is_shown(show, in_folder("huge.gltf"))) {
+        help_show_step(show);
+        const bool staged = gn_show_reload_is_staged(&show->screen);
+        const int bar = show->screen.text.bar;
+        assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
+        if (bar < 0) continue;
+        assert_in_range(bar, before < 0 ? 0 : before, 100);
+        before = bar;
+        values[bar] = 1;
+        if (!staged) assert_true(bar <= 80);
+    }
+    for (int i = 0; i <= 100; i++) loads += values[i] && i < 80, uploads += values[i] && i >= 80;
+    if (loads < 2 || uploads < 5) fail_msg("%d steps of a load, %d of an upload", loads, uploads);
+    gn_show_close(show);
+}
+
 static void a_bad_reload_keeps_the_scene(void **state) {
     (void)state;
     struct gn_show *show = open_show(good);
@@ -299,6 +324,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_go_on_during_a_reload_and_a_later_one_replaces_it),
         cmocka_unit_test(frames_go_on_while_the_scene_of_a_reload_is_uploaded),
+        cmocka_unit_test(the_bar_counts_the_load_and_the_upload),
         cmocka_unit_test(a_bad_reload_keeps_the_scene),
         cmocka_unit_test(the_first_picture_does_not_wait_for_the_first_scene),
         cmocka_unit_test(a_first_scene_that_fails_late_is_replaced_by_the_last_good_one),

@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -97,12 +98,30 @@ static void test_a_mode_named_again_starts_again(void **state) {
 
 /* ---- where ---- */
 
+/* A ground has several rectangles: its corners are round. */
 static struct gn_caption_quad ground_of(const struct gn_caption_run *run,
                                         enum gn_caption_kind kind) {
-    for (uint32_t i = 0; i < run->quad_count; i++)
-        if (run->quads[i].ground && run->quads[i].caption == kind) return run->quads[i];
-    fail_msg("no ground");
-    return (struct gn_caption_quad){0};
+    struct gn_caption_quad all = {.x = WIDTH, .y = HEIGHT};
+    int32_t right = 0, bottom = 0;
+    for (uint32_t i = 0; i < run->quad_count; i++) {
+        const struct gn_caption_quad *q = &run->quads[i];
+        if (!q->ground || q->caption != kind) continue;
+        if (q->x < all.x) all.x = q->x;
+        if (q->y < all.y) all.y = q->y;
+        if (q->x + q->width > right) right = q->x + q->width;
+        if (q->y + q->height > bottom) bottom = q->y + q->height;
+    }
+    if (right == 0) fail_msg("no ground");
+    all.width = right - all.x;
+    all.height = bottom - all.y;
+    return all;
+}
+
+/* The i-th that is no ground; NULL: there are fewer. */
+static const struct gn_caption_quad *glyph_of(const struct gn_caption_run *run, uint32_t i) {
+    for (uint32_t k = 0; k < run->quad_count; k++)
+        if (!run->quads[k].ground && i-- == 0) return &run->quads[k];
+    return NULL;
 }
 
 static void test_a_card_ends_and_a_mark_stays(void **state) {
@@ -124,9 +143,8 @@ static void test_a_mode_is_at_the_lower_left(void **state) {
     (void)state;
     gn_captions_set(captions, GN_CAPTION_MODE, "Hi", 0);
     const struct gn_caption_run *run = run_at(0);
-    assert_int_equal(run->quad_count, 3);
-    const struct gn_caption_quad g = run->quads[0];
-    assert_true(g.ground && !run->quads[1].ground && !run->quads[2].ground);
+    assert_true(glyph_of(run, 1) && !glyph_of(run, 2));
+    const struct gn_caption_quad g = ground_of(run, GN_CAPTION_MODE);
     assert_int_equal(g.x, WIDTH / 20 + 1);
     assert_int_equal(g.width, 2 * GN_DOT_FONT_WIDTH * DOT + 2 * (LINE * 3 / 5));
     assert_int_equal(g.height, LINE + 2 * (LINE * 7 / 20));
@@ -139,7 +157,7 @@ static void test_glyphs_are_those_of_the_font(void **state) {
     gn_captions_set(captions, GN_CAPTION_MODE, "Hi", 0);
     const struct gn_caption_run *run = run_at(0);
     for (uint32_t i = 1; i <= 2; i++) {
-        const struct gn_caption_quad *q = &run->quads[i];
+        const struct gn_caption_quad *q = glyph_of(run, i - 1);
         const uint8_t *rows = gn_dot_font_rows((uint32_t) "Hi"[i - 1]);
         uint32_t set = 0;
         assert_int_equal(q->width, GN_DOT_FONT_COLUMNS * DOT);
@@ -154,7 +172,47 @@ static void test_glyphs_are_those_of_the_font(void **state) {
             }
         assert_int_equal(set, (i == 1 ? 17 : 9) * DOT * DOT);
     }
-    assert_int_equal(run->quads[2].x - run->quads[1].x, GN_DOT_FONT_WIDTH * DOT);
+    assert_int_equal(glyph_of(run, 1)->x - glyph_of(run, 0)->x, GN_DOT_FONT_WIDTH * DOT);
+}
+
+/* No pixel is darkened twice; corners are, or are not, by a radius of a fifth of the line. */
+static void test_grounds_are_round(void **state) {
+    (void)state;
+    static uint8_t times[HEIGHT][WIDTH];
+    gn_captions_set(captions, GN_CAPTION_MODE, "Hi", 0);
+    const struct gn_caption_run *run = run_at(0);
+    const struct gn_caption_quad g = ground_of(run, GN_CAPTION_MODE);
+    memset(times, 0, sizeof times);
+    for (uint32_t i = 0; i < run->quad_count; i++)
+        for (int32_t y = 0; y < run->quads[i].height && run->quads[i].ground; y++)
+            for (int32_t x = 0; x < run->quads[i].width; x++)
+                times[run->quads[i].y + y][run->quads[i].x + x] += run->quads[i].faint ? 2 : 1;
+    for (int32_t y = 0; y < g.height; y++)
+        for (int32_t x = 0; x < g.width; x++) {
+            const int32_t r = LINE / 5, in_x = x < g.width - 1 - x ? x : g.width - 1 - x,
+                          in_y = y < g.height - 1 - y ? y : g.height - 1 - y;
+            const double dx = r - in_x - 0.5, dy = r - in_y - 0.5,
+                         out = in_x < r && in_y < r ? sqrt(dx * dx + dy * dy) - r : -1.0;
+            const uint8_t found = times[g.y + y][g.x + x];
+            assert_true(out > 1.0 ? found == 0 : out < -1.0 ? found == 1 : found <= 2);
+        }
+}
+
+static void test_labels_are_at_the_line_while_it_is_there(void **state) {
+    (void)state;
+    gn_captions_set(captions, GN_CAPTION_LEFT, "Soft", 0);
+    gn_captions_set(captions, GN_CAPTION_RIGHT, "Sharp", 0);
+    assert_true(!run_at(0) || run_at(0)->quad_count == 0);
+    gn_captions_set_split(captions, 0.5);
+    assert_true(gn_captions_next_ns(captions) == 0);
+    const struct gn_caption_run *run = run_at(3600000 * MS);
+    const struct gn_caption_quad left = ground_of(run, GN_CAPTION_LEFT);
+    assert_in_range(WIDTH / 2 - left.x - left.width, 1, LINE / 2);
+    assert_int_equal(run->alpha[GN_CAPTION_LEFT], 1);
+    assert_int_equal(run->alpha[GN_CAPTION_RIGHT], 1);
+    assert_true(gn_captions_next_ns(captions) == INT64_MAX);
+    gn_captions_set_split(captions, -1.0);
+    assert_true(!run_at(3600001 * MS) || run_at(3600001 * MS)->quad_count == 0);
 }
 
 static bool overlap(struct gn_caption_quad a, struct gn_caption_quad b) {
@@ -186,7 +244,7 @@ static void test_text_grows_with_the_picture(void **state) {
         const struct gn_caption_run *run = gn_captions_run(captions, sizes[i][0], sizes[i][1], 0);
         assert_int_equal(run->width_px, sizes[i][0]);
         assert_int_equal(run->height_px, sizes[i][1]);
-        assert_int_equal(run->quads[1].height, sizes[i][2] * GN_DOT_FONT_ROWS / 10);
+        assert_int_equal(glyph_of(run, 0)->height, sizes[i][2] * GN_DOT_FONT_ROWS / 10);
     }
 }
 
@@ -205,14 +263,31 @@ static void test_unknown_characters_are_boxes(void **state) {
     gn_captions_set(captions, GN_CAPTION_MODE, "\xe6\x97\xa5\xff", 0); /* one, and what is none */
     const struct gn_caption_run *run = run_at(0);
     const uint32_t stride = run->atlas->width_px;
-    assert_int_equal(run->quad_count, 3);
-    for (uint32_t i = 1; i <= 2; i++) {
-        const struct gn_caption_quad *q = &run->quads[i];
+    assert_true(glyph_of(run, 1) && !glyph_of(run, 2));
+    for (uint32_t i = 0; i < 2; i++) {
+        const struct gn_caption_quad *q = glyph_of(run, i);
         const uint8_t *at = run->atlas->coverage + q->atlas_y * stride + q->atlas_x;
         assert_int_equal(at[0], 255);
         assert_int_equal(at[(uint32_t)(q->height - 1) * stride + (uint32_t)q->width - 1], 255);
         assert_int_equal(at[(uint32_t)(q->height / 2) * stride + (uint32_t)q->width / 2], 0);
     }
+}
+
+static void test_what_is_missing_is_said_once(void **state) {
+    (void)state;
+    gn_captions_set(captions, GN_CAPTION_MODE, "Hi", 0);
+    run_at(0);
+    assert_string_equal(gn_captions_missing(captions), "");
+    for (int i = 0; i < 3; i++) {
+        gn_captions_set(captions, GN_CAPTION_MODE, i % 2 ? "ไทย 한" : "한", 0);
+        run_at(0);
+    }
+    assert_string_equal(gn_captions_missing(captions),
+                        "Korean (fonts-noto-cjk), Thai (fonts-noto-core)");
+    assert_int_equal(warnings.count, 2);
+    assert_string_equal(
+        warnings.text[1],
+        "texts: missing here: Thai (fonts-noto-core); install the packages in brackets");
 }
 
 /* ---- work ---- */
@@ -304,9 +379,9 @@ static void test_a_font_that_is_none_is_said_once(void **state) {
         &(struct gn_captions_opts){.font = "/nowhere/x.ttf", .warnings = &warnings});
     assert_int_equal(warnings.count, 0); /* nobody has asked for text yet */
     gn_captions_set(captions, GN_CAPTION_TEXT, "Hi", 0);
-    assert_int_equal(run_at(0)->quad_count, 3);
+    assert_non_null(glyph_of(run_at(0), 1));
     gn_captions_set(captions, GN_CAPTION_TEXT, "Ho", 0);
-    assert_int_equal(run_at(0)->quad_count, 3);
+    assert_non_null(glyph_of(run_at(0), 1));
     assert_int_equal(warnings.count, 1);
     assert_non_null(strstr(warnings.text[0], "/nowhere/x.ttf"));
 }
@@ -350,6 +425,21 @@ static void test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page(void **sta
     assert_true(half[0] + half[1] < most[0]); /* only letters are left */
 }
 
+/* As in a kiosk, whose visitors read no names of files. */
+static void test_a_bar_needs_no_text(void **state) {
+    (void)state;
+    assert_null(run_at(0));
+    gn_captions_set_bar(captions, .25);
+    const struct gn_caption_run *run = run_at(0);
+    assert_non_null(run);
+    assert_int_equal(run->alpha[GN_CAPTION_TEXT], 1);
+    const struct gn_caption_quad ground = ground_of(run, GN_CAPTION_TEXT);
+    assert_in_range(ground.width, WIDTH * 85 / 100, WIDTH * 90 / 100);
+    assert_true(glyph_of(run, 0)->y > ground.y);
+    gn_captions_set_bar(captions, -1);
+    assert_null(run_at(0));
+}
+
 #define TEST(f) cmocka_unit_test_setup_teardown(f, setup, teardown)
 
 int main(void) {
@@ -366,6 +456,10 @@ int main(void) {
         TEST(test_text_grows_with_the_picture),
         TEST(test_a_bar_is_filled_to_its_share_and_as_wide_as_the_page),
         TEST(test_no_text_is_no_run),
+        TEST(test_a_bar_needs_no_text),
+        TEST(test_grounds_are_round),
+        TEST(test_labels_are_at_the_line_while_it_is_there),
+        TEST(test_what_is_missing_is_said_once),
         TEST(test_unknown_characters_are_boxes),
         TEST(test_frames_with_the_same_text_do_no_work),
         TEST(test_known_glyphs_are_not_made_again),

@@ -20,7 +20,7 @@ static struct gn_err err;
 
 static int setup(void **state) {
     (void)state;
-    font = gn_font_open_file(path, &err);
+    font = gn_font_open_in(path, "/nowhere", &err); /* alone */
     if (!font) return -1;
     return FT_Init_FreeType(&library) || FT_New_Face(library, path, 0, &face) ? -1 : 0;
 }

@@ -33,6 +33,11 @@ static void expect(uint32_t i, const char *text, bool cut) {
     assert_int_equal(lines[i].width_px, width);
 }
 
+static void expect_bytes(uint32_t i, const char *text) {
+    assert_int_equal(lines[i].end - lines[i].begin, strlen(text));
+    assert_memory_equal(lines[i].begin, text, strlen(text));
+}
+
 /* ---- characters ---- */
 
 static void expect_codes(const char *text, const uint32_t *codes) {
@@ -118,6 +123,41 @@ static void test_long_words_break_within(void **state) {
     expect(1, "y/lon", false);
     expect(2, "g/pat", false);
     expect(3, "h", false);
+}
+
+/* Thai vowels stay with their consonant; Chinese needs no space. */
+static void test_marks_stay_and_chinese_breaks(void **state) {
+    (void)state;
+    assert_int_equal(build("ที่นี่", 40, 8, true), 2);
+    expect_bytes(0, "ที่");
+    expect_bytes(1, "นี่");
+    assert_int_equal(build("go 日晷的影子", 70, 8, true), 2);
+    expect_bytes(0, "go 日晷的影");
+    expect_bytes(1, "子");
+}
+
+/* What is wider together than apart still fits. */
+static int32_t wider(void *data, const char *begin, const char *end) {
+    (void)data;
+    int32_t width = 0;
+    while (gn_layout_next(&begin, end)) width += 13;
+    return width;
+}
+
+static void test_lines_fit_by_their_own_width(void **state) {
+    (void)state;
+    const struct gn_layout_opts opts = {.width_px = 100,
+                                        .most_lines = LINES,
+                                        .wraps = true,
+                                        .advance_px = advance,
+                                        .line_px = wider};
+    const char *text = "four words that wrap";
+    const uint32_t n = gn_layout_build(&opts, text, text + strlen(text), lines);
+    assert_int_equal(n, 4);
+    for (uint32_t i = 0; i < n; i++) {
+        assert_true(lines[i].width_px <= 100);
+        assert_int_equal(lines[i].width_px, 13 * (lines[i].end - lines[i].begin));
+    }
 }
 
 static void test_newlines_break(void **state) {
@@ -216,6 +256,8 @@ int main(void) {
         cmocka_unit_test(test_lines_break_between_words),
         cmocka_unit_test(test_a_space_at_the_end_takes_no_room),
         cmocka_unit_test(test_long_words_break_within),
+        cmocka_unit_test(test_marks_stay_and_chinese_breaks),
+        cmocka_unit_test(test_lines_fit_by_their_own_width),
         cmocka_unit_test(test_newlines_break),
         cmocka_unit_test(test_wide_characters_count_as_wide),
         cmocka_unit_test(test_lines_are_cut_where_they_do_not_wrap),

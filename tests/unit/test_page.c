@@ -1,5 +1,6 @@
 /* Pages as rectangles: within 5 % of each side, no line over another, none cut where there is room,
  * at eight sizes, upright and turned. */
+#include <math.h>
 #include <string.h>
 
 #include "caption/layout.h"
@@ -134,6 +135,64 @@ static void test_sizes_are_shares_of_the_shorter_side(void **state) {
     }
 }
 
+/* Labels hug the line and keep clear of it, of its handle's middle, of each other and of the edges,
+ * wherever it is; both are there in the middle half. */
+static void test_labels_hug_the_line(void **state) {
+    (void)state;
+    for (int i = 0; i < 2 * SIZES; i++)
+        for (int at = 0; at <= 100; at += 5) {
+            const uint32_t width = sizes[i / 2][i % 2], height = sizes[i / 2][1 - i % 2];
+            const int32_t line = (int32_t)lround(at * .01 * width),
+                          reach = (int32_t)height / 12 + 12;
+            const struct gn_page_rect handle = gn_page_handle(width, height, at * .01);
+            assert_int_equal(handle.width, handle.height);
+            assert_int_equal(handle.x + handle.width / 2, line);
+            assert_in_range(handle.y + handle.height / 2, height / 2 - 1, height / 2 + 1);
+            for (int side = 0; side < 2; side++) {
+                const struct gn_page_style style = gn_page_beside(
+                    side ? GN_CAPTION_RIGHT : GN_CAPTION_LEFT, width, height, at * .01);
+                gn_page_build(&style, &font, "Soft shadows - cone", width, height, 0, false, &page);
+                if (at >= 25 && at <= 75) assert_true(page.count > 0);
+                if (page.count == 0) {
+                    assert_int_equal(page.ground.width, 0);
+                    continue;
+                }
+                expect_readable(width, height, false);
+                const int32_t right = page.ground.x + page.ground.width;
+                assert_true(side ? page.ground.x >= line + 2 : right <= line - 2);
+                const int32_t gap = side ? page.ground.x - line : line - right,
+                              margin = (int32_t)width / 20 + 2;
+                if (line > margin && line < (int32_t)width - margin) assert_true(gap < reach);
+            }
+        }
+}
+
+static void test_a_bar_alone(void **state) {
+    (void)state;
+    for (int i = 0; i < 2 * SIZES; i++) {
+        const uint32_t width = sizes[i / 2][i % 2], height = sizes[i / 2][1 - i % 2];
+        gn_page_build(&gn_page_styles[GN_CAPTION_TEXT], &font, "", width, height, 0, true, &page);
+        assert_int_equal(page.count, 0);
+        assert_true(is_within(page.bar, page.ground));
+        assert_true(page.ground.x >= (int32_t)width / 20);
+        assert_true(page.ground.y + page.ground.height <= (int32_t)(height - height / 20));
+    }
+}
+
+static void test_lines_from_right_to_left_begin_at_the_right(void **state) {
+    (void)state;
+    expect_at_all_sizes(GN_CAPTION_CARD, "A long title in Latin letters\nשעון\n12 ساعة\nEnd", true);
+    const struct gn_page_rect title = page.lines[0].rect;
+    for (uint32_t i = 1; i < page.count; i++) {
+        const struct gn_page_rect line = page.lines[i].rect;
+        assert_true(line.width < title.width);
+        if (i == page.count - 1)
+            assert_int_equal(line.x, title.x);
+        else
+            assert_int_equal(line.x + line.width, title.x + title.width);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_card_of_every_problem),
@@ -141,6 +200,9 @@ int main(void) {
         cmocka_unit_test(test_the_help),
         cmocka_unit_test(test_names_of_modes),
         cmocka_unit_test(test_sizes_are_shares_of_the_shorter_side),
+        cmocka_unit_test(test_labels_hug_the_line),
+        cmocka_unit_test(test_a_bar_alone),
+        cmocka_unit_test(test_lines_from_right_to_left_begin_at_the_right),
     };
     return RUN(tests);
 }

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "caption/captions.h"
 #include "core/clock.h"
 #include "kiosk/private.h"
 #include "kiosk/screenshot.h"
@@ -88,7 +89,7 @@ static const char *why_dark(const struct gn_show *s) {
     return screen->status[0] && !screen->lit ? screen->status : NULL;
 }
 
-/* A picture that says it, as large as the screen is or was. */
+/* A picture that says it in the captions' font, as large as the screen is or was. */
 static void begin_dark(struct gn_show *s, const char *why) {
     const struct gn_screen *screen = &s->screen.stage.display.screen;
     const struct gn_size *size = &s->screen.stage.settings->render.size;
@@ -96,12 +97,21 @@ static void begin_dark(struct gn_show *s, const char *why) {
                on_side = screen->rotate_deg % 180 != 0;
     const uint32_t width = known ? screen->width_px : (uint32_t)size->width_px,
                    height = known ? screen->height_px : (uint32_t)size->height_px;
+    const struct gn_captions_opts opts = {.font = s->screen.stage.settings->render.font};
+    struct gn_captions *captions = gn_captions_create(&opts);
     char text[300];
     struct gn_err err = {0};
-    snprintf(text, sizeof text, "gnomon: %.280s", why);
-    if (!gn_screenshot_say(s->screenshot, on_side ? height : width, on_side ? width : height, text,
-                           &err))
+    if (s->screen.kiosk.blanked)
+        snprintf(text, sizeof text, "Screen off. gnomon ctl blank off turns it on.");
+    else
+        snprintf(text, sizeof text, "Nothing is shown: %.280s.", why);
+    gn_captions_set(captions, GN_CAPTION_TEXT, text, 0);
+    const struct gn_caption_run *run =
+        gn_captions_run(captions, on_side ? height : width, on_side ? width : height, 0);
+    if (!run) gn_fail(&err, "screenshot: the screen is too small for a text");
+    if (!run || !gn_screenshot_say(s->screenshot, run, &err))
         gn_screenshot_fail(s->screenshot, &err);
+    gn_captions_destroy(captions);
 }
 
 /* Answered when the picture is written. */

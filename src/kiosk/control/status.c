@@ -16,7 +16,7 @@
 struct status {
     const struct gn_part_host *host;
     const char *version, *mode, *scene, *plays;
-    const char *backend, *range, *scaled_by, *config, *error, *problem;
+    const char *backend, *range, *scaled_by, *fonts, *config, *error, *problem;
     int pid, camera, median_frames, worst_frames, pointers, fps;
     bool paused, blanked, info, waits;
     double uptime_s, median_ms, worst_ms, scale;
@@ -87,6 +87,7 @@ static const void *kiosk_status(void *part) {
         .range = ranges[display->screen.range],
         .scale = gn_show_scale(&s->screen),
         .scaled_by = s->screen.context.scaled_by ? s->screen.context.scaled_by : "none",
+        .fonts = s->screen.text.captions ? gn_captions_missing(s->screen.text.captions) : "",
         .drawn = s->counts.frames,
         .seen = latency.count,
         .median_ms = (double)latency.median.ns * 1e-6,
@@ -129,6 +130,7 @@ static const struct gn_metric kiosk_metrics[] = {
     METRIC(scale, "screen.scale", "", "of the scene's width and height"),
     METRIC(scaled_by, "screen.scaled_by", "", "what makes it as large as the screen"),
     METRIC(range, "screen.range", "", "levels of the signal"),
+    METRIC(fonts, "screen.fonts_missing", "", "scripts of its texts, and packages to install"),
     METRIC(drawn, "frames.drawn", "frames", "by the GPU"),
     METRIC(screen.counts.shown, "frames.shown", "frames", "flips that completed, repeats included"),
     METRIC(screen.counts.again, "frames.again", "frames", "of them, repeats of the one before"),

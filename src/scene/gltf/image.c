@@ -218,6 +218,8 @@ static int32_t image_at(struct gn_gltf *g, int32_t index, int32_t other, enum gn
         if (basis) g->to_scene.image[index] = BASIS;
         if (source.fd >= 0) close(source.fd);
         gn_blob_finish(g, &source.blob);
+        if (pictures->image_count <= g->file.image_count)
+            gn_gltf_progress(g, pictures->image_count, g->file.image_count);
     }
     if (basis && other < 0) miss_basis(g, index);
     if (g->to_scene.image[index] < 0 && !g->failed && other >= 0)
