@@ -63,8 +63,8 @@ static void mix_materials(struct gn_garden *g) {
     }
 }
 
-void gn_garden_init(struct gn_garden *g, struct gn_glb *glb) {
-    *g = (struct gn_garden){.glb = glb};
+void gn_garden_init(struct gn_garden *g, struct gn_glb *glb, const struct gn_garden_plan *plan) {
+    *g = (struct gn_garden){.glb = glb, .plan = plan};
     paint_pictures(g);
     mix_materials(g);
 }

@@ -32,19 +32,34 @@ enum gn_surface {
 };
 
 struct gn_glb;
-
-struct gn_garden {
-    struct gn_glb *glb;
-    int pictures[PICTURES], surfaces[SURFACES]; /* handles in glb */
-};
+struct gn_glb_camera;
+struct gn_garden;
 
 struct gn_place {
     float x, y, z; /* metres */
     float yaw;     /* degrees about +y */
 };
 
+/* Of a scene: what is in it, and where. */
+struct gn_garden_plan {
+    void (*parts[32])(struct gn_garden *); /* in the order of the file; NULL ends them */
+    struct gn_place lamp; /* the middle of the lantern, and where its post stands */
+    float slide[3];       /* where the window falls that the lantern projects */
+    struct gn_place globe, armillary, arches, bench, screen, urns[2], trees[3];
+    float cypresses[5][3]; /* x, z, scale */
+    float lap;             /* of the gull: the fraction of it at the start */
+};
+extern const struct gn_garden_plan gn_yard;
+
+struct gn_garden {
+    struct gn_glb *glb;
+    const struct gn_garden_plan *plan;
+    int pictures[PICTURES], surfaces[SURFACES]; /* handles in glb */
+};
+
 /* Adds the textures and materials to garden->glb. */
-void gn_garden_init(struct gn_garden *garden, struct gn_glb *glb);
+void gn_garden_init(struct gn_garden *garden, struct gn_glb *glb,
+                    const struct gn_garden_plan *plan);
 
 /* An empty shape whose UVs suit the surface. */
 struct gn_shape gn_garden_begin(enum gn_surface surface);
@@ -57,6 +72,17 @@ int gn_garden_stand(struct gn_garden *garden, const char *name, int mesh, struct
 /* Adds a mesh and a node for a shape that is already in scene coordinates. Frees the shape. */
 void gn_garden_put(struct gn_garden *garden, const char *name, struct gn_shape *shape,
                    enum gn_surface surface);
+
+/* court.c: walls, the dial, the lamp post, lights and views */
+void gn_garden_add_wall(struct gn_garden *garden);
+void gn_garden_add_hedge(struct gn_garden *garden);
+void gn_garden_add_gate(struct gn_garden *garden);
+void gn_garden_add_plinth(struct gn_garden *garden);
+void gn_garden_add_dial(struct gn_garden *garden);
+void gn_garden_add_lamp_post(struct gn_garden *garden);
+void gn_garden_add_lights(struct gn_garden *garden);
+void gn_garden_add_view(struct gn_garden *garden, const struct gn_glb_camera *lens,
+                        const float eye[3], const float target[3]);
 
 /* ornaments.c: static objects */
 void gn_garden_add_portico(struct gn_garden *garden);

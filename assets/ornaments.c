@@ -56,8 +56,7 @@ void gn_garden_add_bench(struct gn_garden *g) {
     }
     gn_shape_at(&shape, 0, .42f, 0);
     gn_shape_block(&shape, 2.0f, .11f, .56f);
-    gn_garden_stand(g, "Bench", gn_garden_mesh(g, "bench", &shape, STONE),
-                    (struct gn_place){4.5f, 0, -4.1f, -44}, NULL);
+    gn_garden_stand(g, "Bench", gn_garden_mesh(g, "bench", &shape, STONE), g->plan->bench, NULL);
 }
 
 void gn_garden_add_urns(struct gn_garden *g) {
@@ -76,8 +75,8 @@ void gn_garden_add_urns(struct gn_garden *g) {
     gn_shape_home(&shape);
     gn_shape_lathe(&shape, profile, GN_COUNT(profile), 28);
     int mesh = gn_garden_mesh(g, "urn", &shape, LIME);
-    gn_garden_stand(g, "Urn N", mesh, (struct gn_place){1.1f, 0, -5.4f, 10}, NULL);
-    gn_garden_stand(g, "Urn E", mesh, (struct gn_place){5.55f, 0, -.55f, 30}, NULL);
+    gn_garden_stand(g, "Urn N", mesh, g->plan->urns[0], NULL);
+    gn_garden_stand(g, "Urn E", mesh, g->plan->urns[1], NULL);
 }
 
 void gn_garden_add_balls(struct gn_garden *g) {
@@ -97,14 +96,15 @@ void gn_garden_add_balls(struct gn_garden *g) {
 }
 
 void gn_garden_add_globe(struct gn_garden *g) {
+    const struct gn_place at = g->plan->globe;
     struct gn_shape glass = gn_garden_begin(GLASS), foot = gn_garden_begin(BRONZE);
-    gn_shape_at(&glass, -.35f, .93f, 4.35f);
+    gn_shape_at(&glass, at.x, .93f, at.z);
     gn_shape_sphere(&glass, .27f, 32, 16);
     gn_garden_stand(g, "Gazing globe", gn_garden_mesh(g, "globe", &glass, GLASS),
                     (struct gn_place){0}, "{\"gnomon_cast\":false}");
     const float profile[][2] = {{0, -.02f},   {.2f, -.02f}, {.2f, .03f},  {.06f, .09f},
                                 {.035f, .3f}, {.05f, .55f}, {.12f, .67f}, {0, .665f}};
-    gn_shape_at(&foot, -.35f, 0, 4.35f);
+    gn_shape_at(&foot, at.x, 0, at.z);
     gn_shape_lathe(&foot, profile, GN_COUNT(profile), 20);
     gn_garden_put(g, "Globe stand", &foot, BRONZE);
 }
@@ -116,7 +116,7 @@ void gn_garden_add_armillary(struct gn_garden *g) {
     struct gn_shape foot = gn_garden_begin(STONE), rings = gn_garden_begin(BRONZE);
     gn_shape_lathe(&foot, profile, GN_COUNT(profile), 24);
     gn_garden_stand(g, "Armillary foot", gn_garden_mesh(g, "armillary foot", &foot, STONE),
-                    (struct gn_place){4.6f, 0, 1.6f, 0}, NULL);
+                    g->plan->armillary, NULL);
     for (int i = 0; i < 3; i++) {
         gn_shape_at(&rings, 0, 1.5f, 0);
         gn_shape_turn(&rings, 'x',
@@ -131,7 +131,7 @@ void gn_garden_add_armillary(struct gn_garden *g) {
                  (float[3]){0, 1.5f + .62f * s, -.62f * c}, .012f, 6);
     gn_shape_rod(&rings, (float[3]){0, .93f, 0}, (float[3]){0, 1.03f, 0}, .03f, 8);
     gn_garden_stand(g, "Armillary", gn_garden_mesh(g, "armillary", &rings, BRONZE),
-                    (struct gn_place){4.6f, 0, 1.6f, 0}, NULL);
+                    g->plan->armillary, NULL);
 }
 
 void gn_garden_add_arches(struct gn_garden *g) {
@@ -147,8 +147,7 @@ void gn_garden_add_arches(struct gn_garden *g) {
         if (i == 0 || i == 8) x = i ? .75f : -.75f, y = .8f;
         gn_shape_rod(&shape, (float[3]){x, y, -.52f}, (float[3]){x, y, .52f}, .014f, 5);
     }
-    gn_garden_stand(g, "Rose arch", gn_garden_mesh(g, "arch", &shape, IRON),
-                    (struct gn_place){2.55f, 0, -5.0f, -30}, NULL);
+    gn_garden_stand(g, "Rose arch", gn_garden_mesh(g, "arch", &shape, IRON), g->plan->arches, NULL);
 }
 
 void gn_garden_add_canes(struct gn_garden *g) {
@@ -186,7 +185,7 @@ void gn_garden_add_screen(struct gn_garden *g) {
     }
     gn_shape_at(&card, 0, .18f, 0);
     gn_shape_card(&card, 1.84f, 1.6f);
-    struct gn_place at = {-2.45f, 0, 3.85f, 72};
+    const struct gn_place at = g->plan->screen;
     gn_garden_stand(g, "Screen frame", gn_garden_mesh(g, "screen frame", &frame, WOOD), at, NULL);
     gn_garden_stand(g, "Screen", gn_garden_mesh(g, "screen", &card, SCREEN), at, NULL);
 }
@@ -203,8 +202,7 @@ static void leaf_card(struct gn_shape *shape, int i) {
 }
 
 void gn_garden_add_trees(struct gn_garden *g) {
-    static const struct gn_place places[] = {
-        {-8.3f, 0, 5.0f, 0}, {6.9f, 0, -7.4f, 100}, {-3.9f, 0, -9.6f, 220}};
+    const struct gn_place *places = g->plan->trees;
     static const float bole[][2] = {{0, -.05f},   {.16f, -.05f}, {.11f, .3f},
                                     {.09f, 1.6f}, {.05f, 3.2f},  {0, 3.3f}};
     struct gn_shape trunk = gn_garden_begin(BARK), crown = gn_garden_begin(LEAVES);
@@ -212,7 +210,7 @@ void gn_garden_add_trees(struct gn_garden *g) {
     for (int i = 0; i < 46; i++) leaf_card(&crown, i);
     int trunk_mesh = gn_garden_mesh(g, "trunk", &trunk, BARK),
         crown_mesh = gn_garden_mesh(g, "crown", &crown, LEAVES);
-    for (int i = 0; i < GN_COUNT(places); i++) {
+    for (int i = 0; i < GN_COUNT(g->plan->trees); i++) {
         char name[24];
         snprintf(name, sizeof name, "Trunk %d", i + 1);
         gn_garden_stand(g, name, trunk_mesh, places[i], NULL);
@@ -222,17 +220,13 @@ void gn_garden_add_trees(struct gn_garden *g) {
 }
 
 void gn_garden_add_cypresses(struct gn_garden *g) {
-    static const float places[][3] = {{-8.2f, -9.5f, 1},
-                                      {1.2f, -11.2f, 1.15f},
-                                      {3.2f, -12.3f, .9f},
-                                      {11.0f, -6.0f, 1.05f},
-                                      {-11.5f, -4.5f, 1.2f}};
+    const float(*places)[3] = g->plan->cypresses;
     static const float profile[][2] = {{0, -.05f},   {.5f, -.05f}, {.62f, .5f}, {.6f, 1.3f},
                                        {.42f, 2.5f}, {.18f, 3.5f}, {0, 3.9f}};
     struct gn_shape shape = gn_garden_begin(HEDGE);
     gn_shape_lathe(&shape, profile, GN_COUNT(profile), 18);
     int mesh = gn_garden_mesh(g, "cypress", &shape, HEDGE);
-    for (int i = 0; i < GN_COUNT(places); i++) {
+    for (int i = 0; i < GN_COUNT(g->plan->cypresses); i++) {
         char name[24];
         snprintf(name, sizeof name, "Cypress %d", i + 1);
         float s = places[i][2];
