@@ -9,7 +9,19 @@
 #define GN_LATITUDE 50.0f /* degrees north */
 #define GN_COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
-enum gn_picture { NO_PICTURE, GRAIN, PAVING, TIMBER, BUSH, LATTICE, BRANCH, WINDOW, PICTURES };
+enum gn_picture {
+    NO_PICTURE,
+    GRAIN,
+    PAVING,
+    TIMBER,
+    BUSH,
+    LATTICE,
+    BRANCH,
+    WINDOW,
+    GRASS,
+    SKYLINE,
+    PICTURES
+};
 enum gn_surface {
     COURT,
     LAWN,
@@ -28,11 +40,13 @@ enum gn_surface {
     PANE,
     GLOW,
     GULL,
+    VISTA,
     SURFACES
 };
 
 struct gn_glb;
 struct gn_glb_camera;
+struct gn_image;
 struct gn_garden;
 
 struct gn_place {
@@ -40,16 +54,26 @@ struct gn_place {
     float yaw;     /* degrees about +y */
 };
 
+/* A surface that looks otherwise in a scene. */
+struct gn_tint {
+    enum gn_surface surface;
+    float rgba[4], metal, rough;
+    enum gn_picture picture;
+};
+
 /* Of a scene: what is in it, and where. */
 struct gn_garden_plan {
     void (*parts[32])(struct gn_garden *); /* in the order of the file; NULL ends them */
+    struct gn_tint tints[8];               /* roughness 0 ends them */
     struct gn_place lamp; /* the middle of the lantern, and where its post stands */
     float slide[3];       /* where the window falls that the lantern projects */
-    struct gn_place globe, armillary, arches, bench, screen, urns[2], trees[3];
-    float cypresses[5][3]; /* x, z, scale */
+    struct gn_place columns[4], globe, armillary, arches, bench, screen, hoop, urns[2], trees[3];
+    float column_scale;    /* 0 means 1 */
+    float cypresses[8][3]; /* x, z, scale; 0 ends them */
     float lap;             /* of the gull: the fraction of it at the start */
+    bool vista;            /* it has the pictures and the surface of the landscape */
 };
-extern const struct gn_garden_plan gn_yard;
+extern const struct gn_garden_plan gn_sundial, gn_yard;
 
 struct gn_garden {
     struct gn_glb *glb;
@@ -83,6 +107,11 @@ void gn_garden_add_lamp_post(struct gn_garden *garden);
 void gn_garden_add_lights(struct gn_garden *garden);
 void gn_garden_add_view(struct gn_garden *garden, const struct gn_glb_camera *lens,
                         const float eye[3], const float target[3]);
+
+/* landscape.c: lawn, hills and sky. It casts no shadow, and only the lawn receives any. */
+void gn_garden_add_landscape(struct gn_garden *garden);
+/* Its picture, 60 degrees of it, to be repeated. */
+void gn_garden_paint_vista(struct gn_image *image);
 
 /* ornaments.c: static objects */
 void gn_garden_add_portico(struct gn_garden *garden);

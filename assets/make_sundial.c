@@ -8,7 +8,7 @@
 
 int main(int argc, char **argv) {
     const struct gn_garden_plan *plan = NULL;
-    if (argc == 3 && strcmp(argv[1], "garden") == 0) plan = &gn_yard;
+    if (argc == 3 && strcmp(argv[1], "garden") == 0) plan = &gn_sundial;
     if (argc == 3 && strcmp(argv[1], "yard") == 0) plan = &gn_yard;
     if (!plan) {
         fprintf(stderr, "usage: make_sundial garden|yard OUT.glb\n");

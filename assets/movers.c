@@ -13,8 +13,8 @@ void gn_garden_add_hoop(struct gn_garden *g) {
     gn_shape_torus(&shape, .24f, .018f, 28, 6);
     gn_shape_home(&shape);
     gn_shape_rod(&shape, (float[3]){0, .22f, 0}, (float[3]){0, .95f, 0}, .007f, 5);
-    int node = gn_garden_stand(g, "Hoop", gn_garden_mesh(g, "hoop", &shape, BRONZE),
-                               (struct gn_place){-5.4f, 1.66f, -.9f, 0}, NULL);
+    int node =
+        gn_garden_stand(g, "Hoop", gn_garden_mesh(g, "hoop", &shape, BRONZE), g->plan->hoop, NULL);
     enum { KEYS = 5 };
     float times[KEYS], turns[KEYS][4];
     for (int i = 0; i < KEYS; i++) {

@@ -23,26 +23,30 @@ static int column_mesh(struct gn_garden *g) {
     return gn_garden_mesh(g, "column", &shape, STONE);
 }
 
-static const float portico[4][2] = {
-    {-4.30f, -3.55f}, {-5.25f, -1.85f}, {-5.55f, .05f}, {-5.2f, 1.95f}};
-
-static void add_beam(struct gn_shape *shape, const float a[2], const float b[2]) {
-    gn_shape_at(shape, (a[0] + b[0]) / 2, 2.59f, (a[1] + b[1]) / 2);
-    gn_shape_turn(shape, 'y', atan2f(a[1] - b[1], b[0] - a[0]) / GN_RADIANS);
-    gn_shape_block(shape, hypotf(b[0] - a[0], b[1] - a[1]) + .1f, .26f, .42f);
+static void add_beam(struct gn_shape *shape, const struct gn_place *a, const struct gn_place *b,
+                     float scale) {
+    gn_shape_at(shape, (a->x + b->x) / 2, 2.59f * scale, (a->z + b->z) / 2);
+    gn_shape_turn(shape, 'y', atan2f(a->z - b->z, b->x - a->x) / GN_RADIANS);
+    gn_shape_block(shape, hypotf(b->x - a->x, b->z - a->z) + .1f, .26f * scale, .42f * scale);
 }
 
 void gn_garden_add_portico(struct gn_garden *g) {
     struct gn_shape beams = gn_garden_begin(STONE);
+    const struct gn_place *places = g->plan->columns;
+    const float scale = g->plan->column_scale;
     int column = column_mesh(g);
     for (int i = 0; i < 4; i++) {
         char name[24];
         snprintf(name, sizeof name, "Column %d", i + 1);
-        struct gn_place at = {portico[i][0], 0, portico[i][1], 12.0f * (float)i - 30};
-        gn_garden_stand(g, name, column, at, NULL);
+        struct gn_glb_node node = {.name = name,
+                                   .mesh = column,
+                                   .move = {places[i].x, places[i].y, places[i].z},
+                                   .scale = {scale, scale, scale}};
+        gn_glb_turn_y(places[i].yaw, node.turn);
+        gn_glb_node(g->glb, &node);
     }
     for (int i = 0; i < 3; i++) {
-        add_beam(&beams, portico[i], portico[i + 1]);
+        add_beam(&beams, &places[i], &places[i + 1], scale > 0 ? scale : 1);
         gn_shape_home(&beams);
     }
     gn_garden_put(g, "Architrave", &beams, STONE);
@@ -226,7 +230,7 @@ void gn_garden_add_cypresses(struct gn_garden *g) {
     struct gn_shape shape = gn_garden_begin(HEDGE);
     gn_shape_lathe(&shape, profile, GN_COUNT(profile), 18);
     int mesh = gn_garden_mesh(g, "cypress", &shape, HEDGE);
-    for (int i = 0; i < GN_COUNT(g->plan->cypresses); i++) {
+    for (int i = 0; places[i][2] > 0; i++) {
         char name[24];
         snprintf(name, sizeof name, "Cypress %d", i + 1);
         float s = places[i][2];
