@@ -377,7 +377,7 @@ check-gpu: $(BIN)
 	GNOMON=$< BUILD=$(B) tests/gpu.sh
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
-pictures: $(B)/tests/tool_sheet $(BIN) assets/book/studio.glb
+pictures: $(B)/tests/tool_sheet $(BIN) assets/book/studio.glb assets/book/product.glb
 	GNOMON=$(BIN) BUILD=$(B) O=$(O) tests/image/pictures.sh
 gallery: $(B)/tests/tool_gallery $(BIN)
 	@mkdir -p assets/gallery

@@ -59,7 +59,7 @@ const struct gn_garden_plan gn_sundial = {
               gn_garden_add_lamp_post,
               NULL},
     .tints = {{LAWN, {.145f, .235f, .06f, 1}, 0, 1, GRASS},
-              {BRONZE, {.40f, .265f, .10f, 1}, 1, .22f, NO_PICTURE},
+              {BRONZE, {.40f, .265f, .10f, 1}, 1, .3f, NO_PICTURE},
               {GLASS, {.05f, .34f, .44f, .58f}, 0, .12f, NO_PICTURE},
               {LEAVES, {.38f, .50f, .24f, 1}, 0, .9f, BRANCH},
               {HEDGE, {.15f, .25f, .07f, 1}, 0, 1, BUSH}},
