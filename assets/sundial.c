@@ -18,13 +18,12 @@ static void add_cameras(struct gn_garden *g) {
     gn_garden_add_view(
         g,
         &(struct gn_glb_camera){
-            .name = "Dial", .aspect = .95f, .yfov = 40 * GN_RADIANS, .znear = .05f, .zfar = far},
+            .name = "Dial", .aspect = 1.2f, .yfov = 40 * GN_RADIANS, .znear = .05f, .zfar = far},
         (float[3]){1.85f, 3.55f, 2.15f}, (float[3]){.12f, 1.3f, -.1f});
-    gn_garden_add_view(
-        g,
-        &(struct gn_glb_camera){
-            .name = "Top", .xmag = 8.6f * 16 / 9, .ymag = 8.6f, .znear = .1f, .zfar = 40},
-        (float[3]){0, 20, 0}, (float[3]){0, 0, 0});
+    gn_garden_add_view(g,
+                       &(struct gn_glb_camera){
+                           .name = "Top", .xmag = 8.6f, .ymag = 8.6f, .znear = .1f, .zfar = 40},
+                       (float[3]){0, 20, 0}, (float[3]){0, 0, 0});
 }
 
 static void add_court(struct gn_garden *g) {
