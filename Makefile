@@ -67,7 +67,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 help:
 	@sed -n 's/^#: //p' Makefile
 clean:
-	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/s1.glb assets/bench/s2.glb assets/lessons assets/book/*.glb assets/benchmark/*.glb assets/benchmark/*.pfm
+	rm -rf $(O) compile_commands.json assets/sundial.glb assets/bench/*.glb assets/lessons assets/book/*.glb assets/benchmark/*.glb assets/benchmark/*.pfm
 deps:
 	@sh board/deps.sh $(if $(CROSS),build cross,build run test)
 format:
@@ -190,7 +190,7 @@ TESTLIB := $(B)/libgntest.a
 BIN     := $(B)/gnomon
 IMPORT  := $(if $(IMPORT_C),$(B)/gnomon-import,no-import)
 OBJ      = $(patsubst %.c,$(B)/obj/%.o,$(1))
-SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb) \
+SCENES  := $(if $(wildcard assets/make_sundial.c),assets/sundial.glb assets/bench/yard.glb) \
            $(if $(wildcard assets/make_bench.c),assets/bench/s1.glb assets/bench/s2.glb)
 LESSONS := $(patsubst %,assets/lessons/%.glb,solids hut sheets lattice lean plates thin far position form unseen lights model)
 BOOK    := watch room carousel foliage product architecture studio window
@@ -309,8 +309,9 @@ $(O)/host/embed $(O)/host/man $(O)/host/completion $(HOST_ASSETS):
 $(O)/programs.cost: board/programs.awk $(wildcard tests/gpus/budget/*)
 	@mkdir -p $(@D)
 	$(Q)LC_ALL=C awk -f $^ > $@.tmp && mv $@.tmp $@
-assets/sundial.glb: $(O)/host/make_sundial
-	$(Q)$< $@.tmp && mv $@.tmp $@
+assets/sundial.glb assets/bench/yard.glb: $(O)/host/make_sundial
+	@mkdir -p $(@D)
+	$(Q)$< $(if $(filter %/yard.glb,$@),yard,garden) $@.tmp && mv $@.tmp $@
 assets/bench/%.glb: $(O)/host/make_bench
 	@mkdir -p $(@D)
 	$(Q)$< $* $@.tmp && mv $@.tmp $@
@@ -377,7 +378,7 @@ check-gpu: $(BIN)
 	GNOMON=$< BUILD=$(B) tests/gpu.sh
 readme: $(B)/tests/tool_readme $(BIN) $(O)/host/make_truth $(SCENES)
 	sh tests/image/readme.sh $<
-pictures: $(B)/tests/tool_sheet $(BIN) assets/book/studio.glb
+pictures: $(B)/tests/tool_sheet $(BIN) assets/book/studio.glb assets/book/product.glb
 	GNOMON=$(BIN) BUILD=$(B) O=$(O) tests/image/pictures.sh
 gallery: $(B)/tests/tool_gallery $(BIN)
 	@mkdir -p assets/gallery

@@ -6,8 +6,9 @@
 #include <string.h>
 
 static void paint_pictures(struct gn_garden *g) {
-    static const char *const names[PICTURES] = {"",     "grain",   "paving", "timber",
-                                                "bush", "lattice", "branch", "window"};
+    static const char *const names[PICTURES] = {"",        "grain",  "paving", "timber", "bush",
+                                                "lattice", "branch", "window", "grass",  "skyline"};
+    const int count = g->plan->vista ? PICTURES : GRASS;
     struct gn_image images[PICTURES] = {{0}};
     gn_paint_grain(&images[GRAIN], 256, 0.25f, 11);
     gn_paint_paving(&images[PAVING], 512, 5);
@@ -16,8 +17,12 @@ static void paint_pictures(struct gn_garden *g) {
     gn_paint_lattice(&images[LATTICE], 128, 6, 4);
     gn_paint_branch(&images[BRANCH], 256, 21);
     gn_paint_window(&images[WINDOW], 192, 17);
-    for (int i = GRAIN; i < PICTURES; i++) {
-        enum gn_glb_wrap wrap = i >= BRANCH ? GN_GLB_CLAMP : GN_GLB_REPEAT;
+    if (g->plan->vista) {
+        gn_paint_grass(&images[GRASS], 128, 31);
+        gn_garden_paint_vista(&images[SKYLINE]);
+    }
+    for (int i = GRAIN; i < count; i++) {
+        enum gn_glb_wrap wrap = i == BRANCH || i == WINDOW ? GN_GLB_CLAMP : GN_GLB_REPEAT;
         g->pictures[i] = gn_glb_texture(g->glb, names[i], &images[i], wrap);
         gn_image_finish(&images[i]);
     }
@@ -47,24 +52,35 @@ static const struct {
     [PANE] = {"pane", {.95f, .70f, .40f, .35f}, 0, .3f, .15f, NO_PICTURE, GN_GLB_BLEND, false},
     [GLOW] = {"flame", {1, .7f, .4f, 1}, 0, 1, 1, NO_PICTURE, GN_GLB_OPAQUE, false},
     [GULL] = {"gull", {.92f, .93f, .95f, 1}, 0, .8f, 0, NO_PICTURE, GN_GLB_OPAQUE, true},
+    [VISTA] = {"landscape", {1, 1, 1, 1}, 0, 1, 0, SKYLINE, GN_GLB_OPAQUE, false},
 };
 
+static struct gn_tint tint_of(const struct gn_garden_plan *plan, enum gn_surface surface) {
+    struct gn_tint tint = {
+        surface, {0}, surfaces[surface].metal, surfaces[surface].rough, surfaces[surface].picture};
+    memcpy(tint.rgba, surfaces[surface].rgba, sizeof tint.rgba);
+    for (int i = 0; plan->tints[i].rough > 0; i++)
+        if (plan->tints[i].surface == surface) tint = plan->tints[i];
+    return tint;
+}
+
 static void mix_materials(struct gn_garden *g) {
-    for (int i = 0; i < GN_COUNT(surfaces); i++) {
+    for (int i = 0; i < (g->plan->vista ? SURFACES : VISTA); i++) {
+        const struct gn_tint tint = tint_of(g->plan, (enum gn_surface)i);
         struct gn_glb_material m = {.name = surfaces[i].name,
-                                    .metal = surfaces[i].metal,
-                                    .rough = surfaces[i].rough,
-                                    .texture = g->pictures[surfaces[i].picture],
+                                    .metal = tint.metal,
+                                    .rough = tint.rough,
+                                    .texture = g->pictures[tint.picture],
                                     .alpha = surfaces[i].alpha,
                                     .double_sided = surfaces[i].double_sided};
-        memcpy(m.rgba, surfaces[i].rgba, sizeof m.rgba);
-        for (int c = 0; c < 3; c++) m.emissive[c] = surfaces[i].glow * surfaces[i].rgba[c];
+        memcpy(m.rgba, tint.rgba, sizeof m.rgba);
+        for (int c = 0; c < 3; c++) m.emissive[c] = surfaces[i].glow * m.rgba[c];
         g->surfaces[i] = gn_glb_material(g->glb, &m);
     }
 }
 
-void gn_garden_init(struct gn_garden *g, struct gn_glb *glb) {
-    *g = (struct gn_garden){.glb = glb};
+void gn_garden_init(struct gn_garden *g, struct gn_glb *glb, const struct gn_garden_plan *plan) {
+    *g = (struct gn_garden){.glb = glb, .plan = plan};
     paint_pictures(g);
     mix_materials(g);
 }

@@ -31,6 +31,7 @@ void gn_lamp_add(struct gn_glb *glb, const struct gn_lamp *lamp) {
 void gn_view_add(struct gn_glb *glb, const struct gn_view *view) {
     const char *name = view->name ? view->name : "camera";
     const struct gn_glb_camera lens = {.name = name,
+                                       .aspect = view->aspect > 0 ? view->aspect : 16.0f / 9,
                                        .yfov = view->yfov_deg * RADIANS,
                                        .znear = view->znear > 0 ? view->znear : .1f,
                                        .zfar = view->zfar > 0 ? view->zfar : 200};

@@ -20,6 +20,7 @@ void gn_lamp_add(struct gn_glb *glb, const struct gn_lamp *lamp);
 struct gn_view {
     const char *name; /* NULL: "camera" */
     float eye[3], aim[3];
+    float aspect; /* of its picture; 0: 16 / 9 */
     float yfov_deg;
     float znear, zfar; /* metres; 0: .1, 200 */
 };

@@ -13,8 +13,8 @@ void gn_garden_add_hoop(struct gn_garden *g) {
     gn_shape_torus(&shape, .24f, .018f, 28, 6);
     gn_shape_home(&shape);
     gn_shape_rod(&shape, (float[3]){0, .22f, 0}, (float[3]){0, .95f, 0}, .007f, 5);
-    int node = gn_garden_stand(g, "Hoop", gn_garden_mesh(g, "hoop", &shape, BRONZE),
-                               (struct gn_place){-5.4f, 1.66f, -.9f, 0}, NULL);
+    int node =
+        gn_garden_stand(g, "Hoop", gn_garden_mesh(g, "hoop", &shape, BRONZE), g->plan->hoop, NULL);
     enum { KEYS = 5 };
     float times[KEYS], turns[KEYS][4];
     for (int i = 0; i < KEYS; i++) {
@@ -64,7 +64,7 @@ enum { LAP = 8 }; /* key frames of a lap, which takes twelve seconds */
 
 /* Position of the gull at the fraction t of a lap, and its derivative by t. */
 static void gull_at(float t, float at[3], float velocity[3]) {
-    float a = 2 * (float)M_PI * (t + .2f), w = 2 * (float)M_PI;
+    float a = 2 * (float)M_PI * t, w = 2 * (float)M_PI;
     at[0] = -.8f + 3.3f * cosf(a), at[1] = 3.5f + .35f * sinf(2 * a), at[2] = .9f + 3.6f * sinf(a);
     velocity[0] = -3.3f * w * sinf(a), velocity[1] = .7f * w * cosf(2 * a),
     velocity[2] = 3.6f * w * cosf(a);
@@ -75,13 +75,13 @@ static void fly(struct gn_garden *g, int animation, int node) {
     float times[KEYS], path[KEYS][3][3], turn_times[TURNS], turns[TURNS][4];
     for (int i = 0; i < KEYS; i++) {
         float velocity[3];
-        gull_at((float)(i % LAP) / LAP, path[i][1], velocity);
+        gull_at((float)(i % LAP) / LAP + g->plan->lap, path[i][1], velocity);
         times[i] = 12.0f * (float)i / LAP;
         for (int c = 0; c < 3; c++) path[i][0][c] = path[i][2][c] = velocity[c] / 12;
     }
     for (int i = 0; i < TURNS; i++) {
         float at[3], v[3], t = (float)i / (TURNS - 1);
-        gull_at(t, at, v);
+        gull_at(t + g->plan->lap, at, v);
         turn_times[i] = 12 * t;
         gn_glb_look((float[3]){0}, v, turns[i]);
         float same = 0;
@@ -121,7 +121,7 @@ static void flap(struct gn_garden *g, int animation, int node, float side) {
 
 void gn_garden_add_gull(struct gn_garden *g) {
     float at[3], velocity[3];
-    gull_at(0, at, velocity);
+    gull_at(g->plan->lap, at, velocity);
     int animation = gn_glb_animation(g->glb, "gull");
     int gull =
         gn_garden_stand(g, "Gull", body_mesh(g), (struct gn_place){at[0], at[1], at[2], 0}, NULL);

@@ -23,26 +23,30 @@ static int column_mesh(struct gn_garden *g) {
     return gn_garden_mesh(g, "column", &shape, STONE);
 }
 
-static const float portico[4][2] = {
-    {-4.30f, -3.55f}, {-5.25f, -1.85f}, {-5.55f, .05f}, {-5.2f, 1.95f}};
-
-static void add_beam(struct gn_shape *shape, const float a[2], const float b[2]) {
-    gn_shape_at(shape, (a[0] + b[0]) / 2, 2.59f, (a[1] + b[1]) / 2);
-    gn_shape_turn(shape, 'y', atan2f(a[1] - b[1], b[0] - a[0]) / GN_RADIANS);
-    gn_shape_block(shape, hypotf(b[0] - a[0], b[1] - a[1]) + .1f, .26f, .42f);
+static void add_beam(struct gn_shape *shape, const struct gn_place *a, const struct gn_place *b,
+                     float scale) {
+    gn_shape_at(shape, (a->x + b->x) / 2, 2.59f * scale, (a->z + b->z) / 2);
+    gn_shape_turn(shape, 'y', atan2f(a->z - b->z, b->x - a->x) / GN_RADIANS);
+    gn_shape_block(shape, hypotf(b->x - a->x, b->z - a->z) + .1f, .26f * scale, .42f * scale);
 }
 
 void gn_garden_add_portico(struct gn_garden *g) {
     struct gn_shape beams = gn_garden_begin(STONE);
+    const struct gn_place *places = g->plan->columns;
+    const float scale = g->plan->column_scale;
     int column = column_mesh(g);
     for (int i = 0; i < 4; i++) {
         char name[24];
         snprintf(name, sizeof name, "Column %d", i + 1);
-        struct gn_place at = {portico[i][0], 0, portico[i][1], 12.0f * (float)i - 30};
-        gn_garden_stand(g, name, column, at, NULL);
+        struct gn_glb_node node = {.name = name,
+                                   .mesh = column,
+                                   .move = {places[i].x, places[i].y, places[i].z},
+                                   .scale = {scale, scale, scale}};
+        gn_glb_turn_y(places[i].yaw, node.turn);
+        gn_glb_node(g->glb, &node);
     }
     for (int i = 0; i < 3; i++) {
-        add_beam(&beams, portico[i], portico[i + 1]);
+        add_beam(&beams, &places[i], &places[i + 1], scale > 0 ? scale : 1);
         gn_shape_home(&beams);
     }
     gn_garden_put(g, "Architrave", &beams, STONE);
@@ -56,8 +60,7 @@ void gn_garden_add_bench(struct gn_garden *g) {
     }
     gn_shape_at(&shape, 0, .42f, 0);
     gn_shape_block(&shape, 2.0f, .11f, .56f);
-    gn_garden_stand(g, "Bench", gn_garden_mesh(g, "bench", &shape, STONE),
-                    (struct gn_place){4.5f, 0, -4.1f, -44}, NULL);
+    gn_garden_stand(g, "Bench", gn_garden_mesh(g, "bench", &shape, STONE), g->plan->bench, NULL);
 }
 
 void gn_garden_add_urns(struct gn_garden *g) {
@@ -76,8 +79,8 @@ void gn_garden_add_urns(struct gn_garden *g) {
     gn_shape_home(&shape);
     gn_shape_lathe(&shape, profile, GN_COUNT(profile), 28);
     int mesh = gn_garden_mesh(g, "urn", &shape, LIME);
-    gn_garden_stand(g, "Urn N", mesh, (struct gn_place){1.1f, 0, -5.4f, 10}, NULL);
-    gn_garden_stand(g, "Urn E", mesh, (struct gn_place){5.55f, 0, -.55f, 30}, NULL);
+    gn_garden_stand(g, "Urn N", mesh, g->plan->urns[0], NULL);
+    gn_garden_stand(g, "Urn E", mesh, g->plan->urns[1], NULL);
 }
 
 void gn_garden_add_balls(struct gn_garden *g) {
@@ -97,14 +100,15 @@ void gn_garden_add_balls(struct gn_garden *g) {
 }
 
 void gn_garden_add_globe(struct gn_garden *g) {
+    const struct gn_place at = g->plan->globe;
     struct gn_shape glass = gn_garden_begin(GLASS), foot = gn_garden_begin(BRONZE);
-    gn_shape_at(&glass, -.35f, .93f, 4.35f);
+    gn_shape_at(&glass, at.x, .93f, at.z);
     gn_shape_sphere(&glass, .27f, 32, 16);
     gn_garden_stand(g, "Gazing globe", gn_garden_mesh(g, "globe", &glass, GLASS),
                     (struct gn_place){0}, "{\"gnomon_cast\":false}");
     const float profile[][2] = {{0, -.02f},   {.2f, -.02f}, {.2f, .03f},  {.06f, .09f},
                                 {.035f, .3f}, {.05f, .55f}, {.12f, .67f}, {0, .665f}};
-    gn_shape_at(&foot, -.35f, 0, 4.35f);
+    gn_shape_at(&foot, at.x, 0, at.z);
     gn_shape_lathe(&foot, profile, GN_COUNT(profile), 20);
     gn_garden_put(g, "Globe stand", &foot, BRONZE);
 }
@@ -116,7 +120,7 @@ void gn_garden_add_armillary(struct gn_garden *g) {
     struct gn_shape foot = gn_garden_begin(STONE), rings = gn_garden_begin(BRONZE);
     gn_shape_lathe(&foot, profile, GN_COUNT(profile), 24);
     gn_garden_stand(g, "Armillary foot", gn_garden_mesh(g, "armillary foot", &foot, STONE),
-                    (struct gn_place){4.6f, 0, 1.6f, 0}, NULL);
+                    g->plan->armillary, NULL);
     for (int i = 0; i < 3; i++) {
         gn_shape_at(&rings, 0, 1.5f, 0);
         gn_shape_turn(&rings, 'x',
@@ -131,7 +135,7 @@ void gn_garden_add_armillary(struct gn_garden *g) {
                  (float[3]){0, 1.5f + .62f * s, -.62f * c}, .012f, 6);
     gn_shape_rod(&rings, (float[3]){0, .93f, 0}, (float[3]){0, 1.03f, 0}, .03f, 8);
     gn_garden_stand(g, "Armillary", gn_garden_mesh(g, "armillary", &rings, BRONZE),
-                    (struct gn_place){4.6f, 0, 1.6f, 0}, NULL);
+                    g->plan->armillary, NULL);
 }
 
 void gn_garden_add_arches(struct gn_garden *g) {
@@ -147,8 +151,7 @@ void gn_garden_add_arches(struct gn_garden *g) {
         if (i == 0 || i == 8) x = i ? .75f : -.75f, y = .8f;
         gn_shape_rod(&shape, (float[3]){x, y, -.52f}, (float[3]){x, y, .52f}, .014f, 5);
     }
-    gn_garden_stand(g, "Rose arch", gn_garden_mesh(g, "arch", &shape, IRON),
-                    (struct gn_place){2.55f, 0, -5.0f, -30}, NULL);
+    gn_garden_stand(g, "Rose arch", gn_garden_mesh(g, "arch", &shape, IRON), g->plan->arches, NULL);
 }
 
 void gn_garden_add_canes(struct gn_garden *g) {
@@ -186,7 +189,7 @@ void gn_garden_add_screen(struct gn_garden *g) {
     }
     gn_shape_at(&card, 0, .18f, 0);
     gn_shape_card(&card, 1.84f, 1.6f);
-    struct gn_place at = {-2.45f, 0, 3.85f, 72};
+    const struct gn_place at = g->plan->screen;
     gn_garden_stand(g, "Screen frame", gn_garden_mesh(g, "screen frame", &frame, WOOD), at, NULL);
     gn_garden_stand(g, "Screen", gn_garden_mesh(g, "screen", &card, SCREEN), at, NULL);
 }
@@ -203,8 +206,7 @@ static void leaf_card(struct gn_shape *shape, int i) {
 }
 
 void gn_garden_add_trees(struct gn_garden *g) {
-    static const struct gn_place places[] = {
-        {-8.3f, 0, 5.0f, 0}, {6.9f, 0, -7.4f, 100}, {-3.9f, 0, -9.6f, 220}};
+    const struct gn_place *places = g->plan->trees;
     static const float bole[][2] = {{0, -.05f},   {.16f, -.05f}, {.11f, .3f},
                                     {.09f, 1.6f}, {.05f, 3.2f},  {0, 3.3f}};
     struct gn_shape trunk = gn_garden_begin(BARK), crown = gn_garden_begin(LEAVES);
@@ -212,7 +214,7 @@ void gn_garden_add_trees(struct gn_garden *g) {
     for (int i = 0; i < 46; i++) leaf_card(&crown, i);
     int trunk_mesh = gn_garden_mesh(g, "trunk", &trunk, BARK),
         crown_mesh = gn_garden_mesh(g, "crown", &crown, LEAVES);
-    for (int i = 0; i < GN_COUNT(places); i++) {
+    for (int i = 0; i < GN_COUNT(g->plan->trees); i++) {
         char name[24];
         snprintf(name, sizeof name, "Trunk %d", i + 1);
         gn_garden_stand(g, name, trunk_mesh, places[i], NULL);
@@ -222,17 +224,13 @@ void gn_garden_add_trees(struct gn_garden *g) {
 }
 
 void gn_garden_add_cypresses(struct gn_garden *g) {
-    static const float places[][3] = {{-8.2f, -9.5f, 1},
-                                      {1.2f, -11.2f, 1.15f},
-                                      {3.2f, -12.3f, .9f},
-                                      {11.0f, -6.0f, 1.05f},
-                                      {-11.5f, -4.5f, 1.2f}};
+    const float(*places)[3] = g->plan->cypresses;
     static const float profile[][2] = {{0, -.05f},   {.5f, -.05f}, {.62f, .5f}, {.6f, 1.3f},
                                        {.42f, 2.5f}, {.18f, 3.5f}, {0, 3.9f}};
     struct gn_shape shape = gn_garden_begin(HEDGE);
     gn_shape_lathe(&shape, profile, GN_COUNT(profile), 18);
     int mesh = gn_garden_mesh(g, "cypress", &shape, HEDGE);
-    for (int i = 0; i < GN_COUNT(places); i++) {
+    for (int i = 0; places[i][2] > 0; i++) {
         char name[24];
         snprintf(name, sizeof name, "Cypress %d", i + 1);
         float s = places[i][2];

@@ -190,6 +190,16 @@ void gn_paint_hedge(struct gn_image *image, int size_px, unsigned seed) {
     fill_grey(image, size_px, hedge_at, &(struct recipe){0, seed});
 }
 
+static float grass_at(float u, float v, const void *what) {
+    const struct recipe *r = what;
+    return .68f + .2f * gn_paint_noise(u, v, 64, r->seed) +
+           .14f * gn_paint_noise(u, v, 32, r->seed + 1);
+}
+
+void gn_paint_grass(struct gn_image *image, int size_px, unsigned seed) {
+    fill_grey(image, size_px, grass_at, &(struct recipe){0, seed});
+}
+
 /* ---- pictures with holes ---- */
 
 static void set_pixel(struct gn_image *image, int x, int y, const float rgb[3], float alpha) {

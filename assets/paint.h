@@ -41,6 +41,8 @@ void gn_paint_paving(struct gn_image *image, int size_px, unsigned seed);
 void gn_paint_wood(struct gn_image *image, int size_px, unsigned seed);
 /* Grey: small leaves of a hedge or a lawn. */
 void gn_paint_hedge(struct gn_image *image, int size_px, unsigned seed);
+/* Grey: grass from above, without anything large that would show where it repeats. */
+void gn_paint_grass(struct gn_image *image, int size_px, unsigned seed);
 /* RGBA: a diagonal lattice of laths with holes between them. */
 void gn_paint_lattice(struct gn_image *image, int size_px, int meshes, unsigned seed);
 /* RGBA: a twig with leaves, growing from the middle of the bottom edge. */

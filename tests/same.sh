@@ -156,7 +156,7 @@ contact_sheet() (
 
 take() {
     head_lines
-    (cd "$top" && sha256sum assets/sundial.glb assets/bench/s?.glb tests/plan/golden/*)
+    (cd "$top" && sha256sum assets/sundial.glb assets/bench/*.glb tests/plan/golden/*)
     default_scene
     options
     other_scenes

@@ -328,6 +328,7 @@ static void add_view(struct scene *s, const char *name, int face) {
     float eye[3], to[3];
     for (int i = 0; i < 3; i++) eye[i] = (float)at[i], to[i] = (float)target[i];
     struct gn_glb_camera lens = {.name = name,
+                                 .aspect = 1.25f,
                                  .yfov = (float)(36 * GN_DIAL_RADIANS),
                                  .znear = (float)(0.1 * w),
                                  .zfar = (float)(20 * w)};

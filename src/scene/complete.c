@@ -75,6 +75,21 @@ static void make_opaque(struct gn_scene *scene) {
             scene->materials[i].alpha = GN_ALPHA_OPAQUE;
 }
 
+/* What neither casts nor receives shadows is scenery, as the dome of a sky: the scene's centre and
+ * size are those of the rest, if there is any. */
+static void leave_scenery_out(struct gn_scene *scene, const struct gn_pose *pose) {
+    struct gn_box box = GN_BOX_EMPTY;
+    bool is_any = false;
+    for (uint32_t i = 0; i < scene->item_count; i++)
+        if (scene->items[i].casts || scene->items[i].receives) {
+            const struct gn_box tight = gn_pose_tight_box(pose, i);
+            gn_box_join(&box, &tight);
+        } else {
+            is_any = true;
+        }
+    if (is_any && box.min[0] <= box.max[0]) scene->box = box;
+}
+
 bool gn_scene_complete(struct gn_gltf *g) {
     struct gn_scene *scene = g->scene;
     struct gn_pose pose;
@@ -88,6 +103,7 @@ bool gn_scene_complete(struct gn_gltf *g) {
             gn_box_join(&scene->box, &box);
         }
     }
+    leave_scenery_out(scene, &pose);
     if (scene->box.min[0] > scene->box.max[0]) { /* nothing is visible in the initial pose */
         scene->box = (struct gn_box){{-1, -1, -1}, {1, 1, 1}};
         if (scene->animation.clip_count == 0)

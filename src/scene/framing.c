@@ -5,7 +5,8 @@
 #include <cglm/cglm.h>
 #include <math.h>
 
-static const float FILLED = .92f; /* of half of the picture */
+static const float FILLED = .92f;              /* of half of the picture */
+static const float ASSUMED_ASPECT = 16.0f / 9; /* of a file's camera that does not say its own */
 
 /* How far an extent's points reach along n, from the centre. A point that turns about the vertical
  * axis reaches farthest where its radius points as n does. */
@@ -97,6 +98,13 @@ static void set_planes(const struct gn_framing_fit *fit, vec3 back, float distan
     camera->far_m = fmaxf(1.1f * (away + find_reach(fit, forward)), 10 * camera->near_m);
 }
 
+/* Whether the scene's centre, `distance` along the axis, is what the camera looks at: of a scene
+ * that reaches to the horizon the centre is near. */
+static bool is_before(const vec3 to_centre, float distance, float size) {
+    const float aside = sqrtf(fmaxf(glm_vec3_norm2((float *)to_centre) - distance * distance, 0));
+    return distance >= .05f * size || (distance >= .005f * size && aside < .5f * distance);
+}
+
 /* axes: of the camera as it stands; gets those of the place that is given. Sets eye_ws. */
 static void place_camera(const struct gn_framing_opts *opts, struct gn_framing_fit *fit, bool made,
                          vec3 axes[3], struct gn_framing *framing) {
@@ -105,7 +113,7 @@ static void place_camera(const struct gn_framing_opts *opts, struct gn_framing_f
     glm_vec3_sub(fit->centre_ws, framing->eye_ws, to_centre);
     float distance = -glm_vec3_dot(to_centre, axes[2]);
     const float size = fmaxf(find_reach(fit, axes[2]), 1e-9f);
-    if (distance < .05f * size) distance = size; /* it looks elsewhere */
+    if (!is_before(to_centre, distance, size)) distance = size;
     glm_vec3_copy(framing->eye_ws, target);
     glm_vec3_muladds(axes[2], -distance, target);
     if (made) glm_vec3_copy(fit->centre_ws, target);
@@ -158,7 +166,8 @@ void gn_framing_build(const struct gn_pose *pose, uint32_t camera,
     gn_pose_view(pose, camera, framing->view_from_world, framing->eye_ws);
     if (replaced) use_added_camera(framing);
     if (opts->given & GN_FRAMING_FOV && !c->orthographic) c->yfov_rad = opts->yfov_rad;
-    if (c->aspect > aspect) c->yfov_rad = 2 * atanf(tanf(c->yfov_rad / 2) * c->aspect / aspect);
+    const float own = c->aspect > 0 || made || aspect >= 1 ? c->aspect : ASSUMED_ASPECT;
+    if (own > aspect) c->yfov_rad = 2 * atanf(tanf(c->yfov_rad / 2) * own / aspect);
     if (!made && !placed) return;
     struct gn_framing_fit fit = {.pose = pose, .aspect = aspect, .turns = opts->turns};
     vec3 axes[3];

@@ -39,7 +39,8 @@ struct gn_framing {
 };
 
 /* A file's camera stands where its node does. A picture narrower than its aspect keeps its
- * horizontal angle, others its vertical one: so all is shown that the camera's own picture shows. A
+ * horizontal angle, others its vertical one: so all is shown that the camera's own picture shows.
+ * One that says no aspect has 16:9 where the picture is higher than wide, and else any. A
  * camera that the loader added keeps its direction; it goes as near as all of the scene stays in
  * the picture for all of the clips that the pose plays, and with `turns` from all sides; while the
  * pose fades it goes with it, from where it stood to where it will. What is given replaces what the

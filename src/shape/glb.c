@@ -272,6 +272,7 @@ int gn_glb_camera(struct gn_glb *glb, const struct gn_glb_camera *camera) {
     const char *type = perspective ? "perspective" : "orthographic";
     json_t *lens = json_object(), *object = json_object();
     if (perspective) {
+        if (camera->aspect > 0) set_member(lens, "aspectRatio", number(camera->aspect));
         set_member(lens, "yfov", number(camera->yfov));
     } else {
         set_member(lens, "xmag", number(camera->xmag));

@@ -51,6 +51,7 @@ struct gn_glb_node {
 
 struct gn_glb_camera {
     const char *name;
+    float aspect;      /* width / height of its picture, perspective only; 0 means not said */
     float yfov;        /* radians; 0 means orthographic */
     float xmag, ymag;  /* orthographic: half width, half height in metres */
     float znear, zfar; /* metres; zfar 0 means infinite (perspective only) */

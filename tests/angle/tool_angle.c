@@ -225,7 +225,7 @@ static int compare_pictures(struct run *run, const char *const scenes[], int sce
         for (int t = 0; t < GN_TECHNIQUE_COUNT; t++)
             add_technique(run, scenes[s], (enum gn_technique)t);
     /* all that there is beside shadows; the leaves of its trees are all edge */
-    add_job(run, "assets/sundial.glb", "none", "auto", "mask");
+    add_job(run, "assets/bench/yard.glb", "none", "auto", "mask");
     draw_all(run, true);
     draw_all(run, false);
     for (int i = 0; i < run->job_count; i++) {

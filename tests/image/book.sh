@@ -13,7 +13,7 @@ while [ "$count" -gt 0 ]; do
     scene=$1
     shift
     ini=assets/book/$scene.ini
-    "$gnomon" render -c "$ini" --backend egl --size 1280x720 -o "$folder/$scene.png"
+    "$gnomon" render -c "$ini" --backend egl --size 1920x1080 -o "$folder/$scene.png"
     set -- "$@" "$(sed -n '1s/^; //p' "$ini")=$folder/$scene.png"
     count=$((count - 1))
 done

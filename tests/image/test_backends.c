@@ -96,7 +96,7 @@ int main(void) {
     for (int i = 0; i < 2; i++)
         snprintf(generated[i], sizeof generated[i], "%s/truth-%02d.glb", folder, i ? 14 : 3);
     free(folder);
-    const char *scenes[] = {"assets/sundial.glb", "assets/bench/s1.glb", generated[0],
+    const char *scenes[] = {"assets/bench/yard.glb", "assets/bench/s1.glb", generated[0],
                             generated[1]};
     const char *missing = osmesa_missing(generated[0]);
     int failures = 0;

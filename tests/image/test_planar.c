@@ -344,7 +344,7 @@ static bool shot_by(const char *backend, struct gn_picture *shot) {
     struct gn_err err = {0};
     const char *args[] = {"--backend", backend,    "--size",  "640x360", "--shadow",
                           "planar",    "--planar", "stencil", NULL};
-    bool ok = gn_shot(shot, NULL, &err, "png", "assets/sundial.glb", args);
+    bool ok = gn_shot(shot, NULL, &err, "png", "assets/bench/yard.glb", args);
     if (!ok && !strstr(err.text, "not built in")) fail_msg("%s", err.text);
     return ok;
 }

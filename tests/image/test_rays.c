@@ -88,12 +88,12 @@ static void test_visibility_is_the_oracles_to_the_bit(void **state) {
         equals_oracle(path, "0", 1);
         free(path);
     }
-    equals_oracle("assets/sundial.glb", "2.5", 8);
+    equals_oracle("assets/bench/yard.glb", "2.5", 8);
 }
 
 static void test_threads_change_no_bit(void **state) {
     (void)state;
-    struct gn_scene *scene = load("assets/sundial.glb");
+    struct gn_scene *scene = load("assets/bench/yard.glb");
     struct gn_pose pose;
     struct gn_raycast rays;
     struct gn_ray_eye eye;

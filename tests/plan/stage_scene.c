@@ -133,9 +133,9 @@ struct gn_scene *gn_stage_scene_make(void) {
         json_object_set_new(node, "extensions",
                             json_pack("{s{si}}", "KHR_lights_punctual", "light", i));
     }
-    gn_maker_add(
-        &m, "cameras",
-        "{'type':'perspective','name':'Front','perspective':{'yfov':0.8,'znear':0.1,'zfar':50}}");
+    gn_maker_add(&m, "cameras",
+                 "{'type':'perspective','name':'Front','perspective':{'yfov':0.8,'aspectRatio':0.1,"
+                 "'znear':0.1,'zfar':50}}"); /* that shape: a narrow picture sees less */
     gn_maker_add(&m, "nodes",
                  "{'name':'Front','camera':0,'translation':[0,3,9],'rotation':[-0.13,0,0,0.9915]}");
     gn_maker_add(&m, "nodes",

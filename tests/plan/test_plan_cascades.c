@@ -254,7 +254,7 @@ static void test_more_that_help_little_are_not_taken(void **state) {
     for (int i = 0; i < 3; i++) {
         struct gn_err err = {0};
         struct gn_plan_fixture f;
-        struct gn_scene *scene = gn_scene_load("assets/sundial.glb", NULL, NULL, &err);
+        struct gn_scene *scene = gn_scene_load("assets/bench/yard.glb", NULL, NULL, &err);
         if (!scene) fail_msg("%s", err.text);
         begin(&f, scene, 4096);
         assert_int_equal(view_of(&f)->map.cascade_count, 0);

@@ -104,7 +104,7 @@ static void test_the_stage(void **state) {
 
 static void test_scenes_of_the_project(void **state) {
     (void)state;
-    static const char *const paths[] = {"assets/sundial.glb", "assets/bench/s1.glb",
+    static const char *const paths[] = {"assets/bench/yard.glb", "assets/bench/s1.glb",
                                         "assets/bench/s2.glb"};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         struct gn_err err = {0};

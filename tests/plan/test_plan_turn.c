@@ -73,7 +73,7 @@ static void expect_kept(struct gn_plan_fixture *f, const char *what) {
 /* A sun, a spot and a point light; suns that cascades were for; sundials with lanterns. */
 static void test_still_scenes_are_drawn_once(void **state) {
     (void)state;
-    static const char *const paths[] = {"assets/sundial.glb", "assets/bench/s1.glb",
+    static const char *const paths[] = {"assets/bench/yard.glb", "assets/bench/s1.glb",
                                         "assets/bench/s2.glb", "assets/lessons/lights.glb",
                                         "assets/lessons/lattice.glb"};
     struct gn_plan_fixture f;
@@ -113,7 +113,7 @@ static void test_a_fixed_map_is_fine_enough(void **state) {
     (void)state;
     for (uint32_t px = 0; px <= 2048; px += 1024) {
         struct gn_plan_fixture f;
-        begin(&f, load("assets/sundial.glb"), GN_POSE_NONE);
+        begin(&f, load("assets/bench/yard.glb"), GN_POSE_NONE);
         if (px) GN_LIGHT_SET(&f.opts.shadow.any, map_px, px);
         GN_LIGHT_SET(&f.opts.shadow.any, cascades, px ? 1 : 0);
         const struct gn_shadow_view fixed = gn_plan_make(&f)->shadows[0];
@@ -149,7 +149,7 @@ static void test_a_detail_has_a_map_of_its_own(void **state) {
 static void test_a_limit_keeps_maps_narrow(void **state) {
     (void)state;
     struct gn_plan_fixture f;
-    begin(&f, load("assets/sundial.glb"), GN_POSE_NONE);
+    begin(&f, load("assets/bench/yard.glb"), GN_POSE_NONE);
     f.opts.shadow.maps_bytes = 30 << 20;
     assert_int_equal(gn_plan_make(&f)->shadows[0].map.cascade_count, 2);
     gn_plan_end(&f);

@@ -203,8 +203,9 @@ static void test_a_narrow_picture_keeps_the_horizontal_angle(void **state) {
         gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
         for (int i = 0; i < SHAPE_COUNT; i++) {
             gn_framing_build(&pose, 0, &(struct gn_framing_opts){.aspect = SHAPES[i]}, &framing);
-            const float wide = tanf(.4f) * 1.5f / SHAPES[i], high = tanf(.4f);
-            assert_near(tanf(framing.camera.yfov_rad / 2), own == 0 ? fmaxf(wide, high) : high);
+            const float shape = own == 0 ? 1.5f : SHAPES[i] < 1 ? 16.0f / 9 : 0;
+            const float wide = tanf(.4f) * shape / SHAPES[i], high = tanf(.4f);
+            assert_near(tanf(framing.camera.yfov_rad / 2), fmaxf(wide, high));
             assert_near(framing.eye_ws[2], 9);
         }
         gn_framing_build(&pose, 0, &(struct gn_framing_opts){.aspect = 1.5f}, &framing);
@@ -286,6 +287,37 @@ static void test_a_given_place_takes_that_of_the_camera(void **state) {
     glm_mat4_mulv3(f.view_from_world, (float *)target, 1, seen);
     assert_true(fabsf(seen[0]) < 1e-4f && fabsf(seen[1]) < 1e-4f && fabsf(seen[2] + 9) < 1e-4f);
     gn_scene_destroy(scene);
+}
+
+/* A square of 800 m to the horizon, and over it the dome of a sky: the camera is turned about what
+ * it looks at, which is near the middle. The dome does not count; a shadow on it would. */
+static void test_a_scene_to_the_horizon_is_turned_about_its_middle(void **state) {
+    (void)state;
+    static const char *const extras[] = {"'gnomon_cast':false,'gnomon_receive':false",
+                                         "'gnomon_cast':false"};
+    for (int is_seen = 0; is_seen < 2; is_seen++) {
+        char nodes[400];
+        struct gn_framing f;
+        if (is_seen) setup(NULL);
+        snprintf(nodes, sizeof nodes,
+                 "[{'mesh':0,'scale':[400,1,400]},"
+                 "{'camera':0,'translation':[0,1,9]},"
+                 "{'mesh':0,'scale':[400,1,400],'translation':[0,300,0],'extras':{%s}}]",
+                 extras[is_seen]);
+        gn_maker_set(&maker, "cameras",
+                     "[{'type':'perspective','perspective':{'yfov':0.8,'znear':0.1}}]");
+        gn_maker_set(&maker, "nodes", nodes);
+        gn_maker_set(&maker, "scenes", "[{'nodes':[0,1,2]}]");
+        struct gn_scene *scene = load();
+        assert_true((scene->box.max[1] > 100) == (is_seen > 0));
+        frame_at(scene,
+                 &(struct gn_framing_opts){.given = GN_FRAMING_THETA, .theta_rad = GLM_PI_2f}, &f);
+        if (is_seen)
+            assert_true(f.distance_m > 100);
+        else
+            assert_at(&f, 9, 1, 0);
+        gn_scene_destroy(scene);
+    }
 }
 
 /* The cube of 2 m through a camera at that node. */
@@ -386,6 +418,7 @@ int main(void) {
         cmocka_unit_test_setup(test_round_things_do_not_touch_the_border, setup),
         cmocka_unit_test_setup(test_a_scene_with_nothing_to_see_has_a_camera_too, setup),
         cmocka_unit_test_setup(test_a_given_place_takes_that_of_the_camera, setup),
+        cmocka_unit_test_setup(test_a_scene_to_the_horizon_is_turned_about_its_middle, setup),
         cmocka_unit_test_setup(test_how_much_of_the_model_a_camera_sees, setup),
         cmocka_unit_test_setup(test_a_camera_that_is_replaced_shows_all, setup),
         cmocka_unit_test_setup(test_an_added_camera_still_shows_all_from_a_given_side, setup),

@@ -276,7 +276,7 @@ static void test_a_close_up_goes_round_what_it_shows(void **state) {
     assert_true(further.distance_m == o.distance_m);
 }
 
-/* The garden's camera shows all of it, the dial's what is in the middle of it. */
+/* Both cameras look at the dial, and go round it, by hand and by a given angle. */
 static void test_the_default_scene_turns_about_its_dial(void **state) {
     (void)state;
     const struct gn_embedded *file = gn_embedded_find("sundial.glb");
@@ -289,8 +289,18 @@ static void test_the_default_scene_turns_about_its_dial(void **state) {
     gn_pose_init(&pose, scene, GN_POSE_DEFAULT);
     const int garden = gn_scene_find_camera(scene, "Garden", &err),
               dial = gn_scene_find_camera(scene, "Dial", &err);
-    assert_true(turns_about_m((uint32_t)dial) < 4); /* the scene's radius is three times as long */
-    assert_near(turns_about_m((uint32_t)garden), 11.18f, .01f);
+    assert_true(turns_about_m((uint32_t)dial) < 4); /* the scene's radius is 100 times as long */
+    assert_near(turns_about_m((uint32_t)garden), 7.67f, .01f);
+    for (int i = 0; i < 2; i++) {
+        const struct gn_framing_opts opts = {.aspect = 16.0f / 9, .given = GN_FRAMING_THETA};
+        struct gn_framing at;
+        gn_framing_build(&pose, (uint32_t)(i ? dial : garden), &opts, &at);
+        assert_in_range((uint32_t)(100 * at.distance_m), 200, 850);
+        vec3 forward = {-at.view_from_world[0][2], -at.view_from_world[1][2],
+                        -at.view_from_world[2][2]};
+        glm_vec3_muladds(forward, at.distance_m, at.eye_ws);
+        assert_true(hypotf(at.eye_ws[0], at.eye_ws[2]) < 1.42f); /* the plate's radius */
+    }
 }
 
 int main(void) {
