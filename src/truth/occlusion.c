@@ -9,6 +9,8 @@
 
 #define LEAST_SKY  .125f   /* of the mean: harmonics of a bright spot are negative opposite to it */
 #define LEAST_DOWN (-1e-6) /* a ray that falls less does not reach the floor */
+#define TOUCHING   2e-3    /* nearer faces are one: of the root of twice the smaller one's area, */
+#define PARALLEL   .99     /* when the cosine between them is at least this */
 
 static double radiance(const struct gn_sky *sky, const double d[3]) {
     const float *c = sky->radiance;
@@ -94,6 +96,34 @@ static void sobol_point(uint32_t i, const float shift[2], double out[2]) {
     }
 }
 
+struct looking {
+    const struct gn_occlusion *from;
+    const struct gn_occlusion_site *site;
+};
+
+static bool is_touching(const struct gn_occlusion_site *site, const struct gn_bvh_triangle *face) {
+    double a[3], b[3], up[3], along = 0, facing = 0;
+    for (int k = 0; k < 3; k++) {
+        a[k] = face->p[1][k] - face->p[0][k];
+        b[k] = face->p[2][k] - face->p[0][k];
+    }
+    for (int k = 0; k < 3; k++) {
+        const int l = (k + 1) % 3, m = (k + 2) % 3;
+        up[k] = a[l] * b[m] - a[m] * b[l];
+        along += up[k] * (face->p[0][k] - site->point_ws[k]);
+        facing += up[k] * (double)site->face_ws[k];
+    }
+    const double twice_m2 = sqrt(up[0] * up[0] + up[1] * up[1] + up[2] * up[2]);
+    const double side_m = fmin(sqrt(twice_m2), (double)site->side_m);
+    return fabs(facing) > PARALLEL * twice_m2 && fabs(along) < TOUCHING * side_m * twice_m2;
+}
+
+static bool is_in_the_way(const void *context, const struct gn_bvh_triangle *face,
+                          const struct gn_bvh_hit *hit) {
+    const struct looking *looking = context;
+    return gn_raycast_blocks(&looking->from->rays, face, hit) && !is_touching(looking->site, face);
+}
+
 double gn_occlusion_cast(const struct gn_occlusion *o, const struct gn_occlusion_site *site,
                          uint32_t first, uint32_t last, double *whole) {
     vec3 n, side, up;
@@ -105,6 +135,7 @@ double gn_occlusion_cast(const struct gn_occlusion *o, const struct gn_occlusion
     const double face[3] = {site->face_ws[0], site->face_ws[1], site->face_ws[2]},
                  lift_m = gn_raycast_lift_m(&o->rays, site->point_ws, face);
     for (int k = 0; k < 3; k++) ray.origin[k] = site->point_ws[k] + lift_m * face[k];
+    const struct looking looking = {o, site};
     double light = 0;
     for (uint32_t i = first; i < last; i++) {
         double at[2], facing = 0;
@@ -119,7 +150,7 @@ double gn_occlusion_cast(const struct gn_occlusion *o, const struct gn_occlusion
         const double arrives = radiance(&o->sky, ray.direction);
         struct gn_bvh_hit hit;
         *whole += arrives;
-        if (!gn_bvh_hit(&o->rays.bvh, &ray, true, gn_raycast_blocks, &o->rays, &hit))
+        if (!gn_bvh_hit(&o->rays.bvh, &ray, true, is_in_the_way, &looking, &hit))
             light += arrives * open_share(o, &ray);
     }
     return light;
@@ -128,11 +159,12 @@ double gn_occlusion_cast(const struct gn_occlusion *o, const struct gn_occlusion
 void gn_occlusion_site_of(const struct gn_pose *pose, const struct gn_ray_surface *surface,
                           struct gn_occlusion_site *site) {
     const double share[3] = {1 - surface->u - surface->v, surface->u, surface->v};
-    double sum[3] = {0};
+    double sum[3] = {0}, p[3][3];
+    vec3 a, b, up;
     for (int i = 0; i < 3; i++) {
         const uint32_t vertex = pose->scene->buffers.indices[surface->index + (uint32_t)i];
-        double p[3], n[3] = {0};
-        gn_pose_vertex(pose, surface->item, vertex, p, n);
+        double n[3] = {0};
+        gn_pose_vertex(pose, surface->item, vertex, p[i], n);
         const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         for (int k = 0; k < 3 && length > 0; k++) sum[k] += share[i] * n[k] / length;
     }
@@ -140,7 +172,11 @@ void gn_occlusion_site_of(const struct gn_pose *pose, const struct gn_ray_surfac
         site->point_ws[k] = surface->point_ws[k];
         site->face_ws[k] = (float)surface->normal_ws[k];
         site->normal_ws[k] = (float)sum[k];
+        a[k] = (float)(p[1][k] - p[0][k]);
+        b[k] = (float)(p[2][k] - p[0][k]);
     }
+    glm_vec3_cross(a, b, up);
+    site->side_m = sqrtf(glm_vec3_norm(up));
     gn_unit(site->normal_ws);
     if (glm_vec3_norm2(site->normal_ws) < .5f) glm_vec3_copy(site->face_ws, site->normal_ws);
     if (glm_vec3_dot(site->normal_ws, site->face_ws) < 0) glm_vec3_negate(site->normal_ws);

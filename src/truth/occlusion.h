@@ -3,6 +3,8 @@
  *
  * What stays where it is (gn_item.stays), over the clips that are shown, too, occludes as it casts
  * shadows, with its holes, from both sides, without variants; all else neither occludes nor counts.
+ * Two parallel faces that nearly touch, as a label and the bottle under it, are one: neither is in
+ * the way of the other. Nobody sees between them, and which is the outer one is left to rounding.
  * A ray that meets the scene's unseen floor sees as much of its light as the floor there sees of
  * the sky. */
 #ifndef GN_TRUTH_OCCLUSION_H
@@ -39,6 +41,7 @@ struct gn_occlusion_site {
     double point_ws[3];
     float normal_ws[3]; /* unit, of the mesh: weighs light by its cosine */
     float face_ws[3]; /* unit, of the triangle, on that side: light from below it does not count */
+    float side_m;     /* root of twice the triangle's area; 0: not known */
     float turn[2];    /* 0 to 1, by which the directions of its rays are shifted */
 };
 /* Of what an eye sees of the posed scene. turn: in it. */

@@ -93,6 +93,7 @@ static struct gn_occlusion_site site_on(const struct triangle *t, bool back, uin
     }
     gn_unit(site.normal_ws);
     if (glm_vec3_dot(site.normal_ws, site.face_ws) < 0) glm_vec3_negate(site.normal_ws);
+    site.side_m = sqrtf(2 * (float)t->area);
     memcpy(site.turn, e + 2, sizeof site.turn);
     return site;
 }
