@@ -32,6 +32,7 @@ struct gn_captions {
     struct gn_caption_quad quads[QUADS_MAX];
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
     uint32_t bottom_px;   /* height in use at the picture's lower edge */
+    int32_t page_px;      /* the first row below the page; 0: there is none */
     int64_t shown_ns;     /* time of the last run */
     bool changed;         /* since then */
     bool stale;           /* the quads show other texts */
@@ -197,8 +198,9 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     struct gn_page *page = &c->page;
     gn_page_build(style, &font, c->captions[kind].text, c->run.width_px, c->run.height_px,
                   style->at_top ? 0 : c->bottom_px, has_bar, page);
-    if (page->ground.width == 0) return;
     const struct gn_page_rect *ground = &page->ground;
+    if (ground->width == 0 || ground->y < c->page_px) return;
+    if (kind == GN_CAPTION_INFO) c->page_px = ground->y + ground->height;
     push_quad(c, (struct gn_caption_quad){.x = ground->x,
                                           .y = ground->y,
                                           .width = ground->width,
@@ -227,15 +229,19 @@ static void lay_out_mark(struct gn_captions *c) {
                    .x = x + side / 2, .y = y + side / 2, .width = side, .height = side});
 }
 
-/* From below: the text, above it the card and the mode, which is drawn last. */
+/* A page, and what has room below it; from below: the text, above it the card and the mode. The
+ * page has what a card and a mark are about. */
 static void lay_out_all(struct gn_captions *c) {
-    static const enum gn_caption_kind order[] = {GN_CAPTION_TEXT, GN_CAPTION_CARD, GN_CAPTION_INFO,
+    static const enum gn_caption_kind order[] = {GN_CAPTION_INFO, GN_CAPTION_TEXT, GN_CAPTION_CARD,
                                                  GN_CAPTION_MODE};
+    const bool page = c->captions[GN_CAPTION_INFO].text[0];
     c->bottom_px = 0;
+    c->page_px = 0;
     c->run.quad_count = 0;
     for (size_t i = 0; i < sizeof order / sizeof *order; i++)
-        if (c->captions[order[i]].text[0]) lay_out(c, order[i]);
-    if (c->captions[GN_CAPTION_MARK].text[0]) lay_out_mark(c);
+        if (c->captions[order[i]].text[0] && !(page && order[i] == GN_CAPTION_CARD))
+            lay_out(c, order[i]);
+    if (c->captions[GN_CAPTION_MARK].text[0] && !page) lay_out_mark(c);
 }
 
 const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t width_px,
