@@ -6,6 +6,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "core/text.h"
+
 enum { COLUMNS = 80, LEAST = 40 };
 
 int gn_terminal_columns(FILE *to) {
@@ -28,6 +30,14 @@ static const char *const tints[] = {[GN_TINT_NONE] = "\33[m",
 
 const char *gn_terminal_tint(FILE *to, enum gn_tint tint) {
     return gn_terminal_has_colours(to) ? tints[tint] : "";
+}
+
+void gn_terminal_write_bar(char *out, size_t size, int done, int all, double spent_s) {
+    static const char full[] = "####################", empty[] = "....................";
+    const int most = sizeof full - 1, filled = (int)((double)most * done / all);
+    const double left_s = done > 0 ? spent_s / done * (all - done) : 0;
+    snprintf(out, size, "[%.*s%.*s] %d of %d", filled, full, most - filled, empty, done, all);
+    if (done > 0) gn_text_add(out, size, ", %.0f s left", left_s);
 }
 
 /* ---- a report ------------------------------------------------------------------------------- */

@@ -15,6 +15,9 @@ bool gn_terminal_has_colours(FILE *to);
 enum gn_tint { GN_TINT_NONE, GN_TINT_BOLD, GN_TINT_RED, GN_TINT_GREEN, GN_TINT_YELLOW };
 const char *gn_terminal_tint(FILE *to, enum gn_tint tint);
 
+/* "[#####.....] 5 of 10, 3 s left", of what has taken so long: what is left takes as long each. */
+void gn_terminal_write_bar(char *out, size_t size, int done, int all, double spent_s);
+
 /* A report for `to`, written into the stream that begin() returns and printed by end(). */
 struct gn_terminal {
     FILE *to, *report; /* the same, unless it leads to a terminal */

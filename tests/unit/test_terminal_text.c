@@ -80,6 +80,19 @@ static void headings_are_bold_and_problems_red(void **state) {
                         "\33[1mProblems\33[m\n\33[32m  none\33[m\n");
 }
 
+static void a_bar_has_what_is_left(void **state) {
+    (void)state;
+    char bar[100];
+    gn_terminal_write_bar(bar, sizeof bar, 5, 10, 3);
+    assert_string_equal(bar, "[##########..........] 5 of 10, 3 s left");
+    gn_terminal_write_bar(bar, sizeof bar, 0, 10, 3);
+    assert_string_equal(bar, "[....................] 0 of 10");
+    gn_terminal_write_bar(bar, sizeof bar, 1, 30, 2);
+    assert_string_equal(bar, "[....................] 1 of 30, 58 s left");
+    gn_terminal_write_bar(bar, sizeof bar, 30, 30, 2);
+    assert_string_equal(bar, "[####################] 30 of 30, 0 s left");
+}
+
 /* Random lines of words, with and without labels. */
 static void nothing_is_lost_and_no_line_is_longer(void **state) {
     (void)state;
@@ -111,6 +124,7 @@ int main(void) {
         cmocka_unit_test(characters_count_and_not_bytes),
         cmocka_unit_test(what_is_not_a_terminals_stays),
         cmocka_unit_test(headings_are_bold_and_problems_red),
+        cmocka_unit_test(a_bar_has_what_is_left),
         cmocka_unit_test(nothing_is_lost_and_no_line_is_longer),
     };
     return cmocka_run_group_tests(tests, NULL, finish);
