@@ -8,6 +8,7 @@
 #include "config.h"
 #include "core/file.h"
 #include "core/stop.h"
+#include "core/terminal.h"
 #include "options/args.h"
 
 static gn_cli_command *const commands[GN_COMMAND_COUNT] = {
@@ -15,6 +16,12 @@ static gn_cli_command *const commands[GN_COMMAND_COUNT] = {
 #include "options/command_rows.h"
 #undef GN_COMMAND
 };
+
+static void print_help(enum gn_command command, bool all) {
+    struct gn_terminal terminal;
+    gn_help_print(gn_terminal_begin(&terminal, stdout), command, all);
+    gn_terminal_end(&terminal);
+}
 
 static bool run(const struct gn_options *options, struct gn_warnings *warnings,
                 struct gn_err *err) {
@@ -27,7 +34,7 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
     else if (options->settings->run.topic)
         gn_topic_print(options->settings->run.topic - 1);
     else if (options->settings->run.help)
-        gn_help_print(stdout, command, options->settings->run.help_all);
+        print_help(command, options->settings->run.help_all);
     else if (options->settings->run.check)
         return gn_cli_check(options, warnings, err);
     else
@@ -35,13 +42,18 @@ static bool run(const struct gn_options *options, struct gn_warnings *warnings,
     return true;
 }
 
+static void print_error(const char *text) {
+    fprintf(stderr, "%sgnomon:%s %s\n", gn_terminal_tint(stderr, GN_TINT_RED),
+            gn_terminal_tint(stderr, GN_TINT_NONE), text);
+}
+
 static int report(bool ok, const struct gn_options *options, struct gn_warnings *warnings,
                   const struct gn_err *err) {
     if (ok || options->settings->run.verbose) gn_warn_print(warnings, stderr);
     if (ok) return GN_EXIT_OK;
     for (int i = 0; options->errors && i < options->errors->count; i++)
-        fprintf(stderr, "gnomon: %s\n", options->errors->items[i].text);
-    fprintf(stderr, "gnomon: %s\n", err->text);
+        print_error(options->errors->items[i].text);
+    print_error(err->text);
     return err->status == GN_EXIT_OK ? GN_EXIT_RUNTIME : err->status;
 }
 

@@ -37,6 +37,7 @@ struct gn_captions {
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
     double split;         /* place of the line of a split screen; below 0: none */
     uint32_t bottom_px;   /* height in use at the picture's lower edge */
+    int32_t page_px;      /* the first row below the page; 0: there is none */
     int64_t shown_ns;     /* time of the last run */
     bool changed;         /* since then */
     bool stale;           /* the quads show other texts */
@@ -244,8 +245,9 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     struct gn_page *page = &c->page;
     gn_page_build(style, &font, c->captions[kind].text, c->run.width_px, c->run.height_px,
                   style->at_top ? 0 : c->bottom_px, has_bar, page);
-    if (page->ground.width == 0) return;
     const struct gn_page_rect *ground = &page->ground;
+    if (ground->width == 0 || ground->y < c->page_px) return;
+    if (kind == GN_CAPTION_INFO) c->page_px = ground->y + ground->height;
     push_ground(c, kind, ground);
     for (uint32_t i = 0; i < page->count; i++) push_line(c, kind, &page->lines[i]);
     if (has_bar) push_bar(c, kind, &page->bar);
@@ -309,17 +311,19 @@ static void lay_out_split(struct gn_captions *c) {
     lay_out_handle(c);
 }
 
-/* From below: the text, above it the card, labels of a split screen and the mode, which is drawn
- * last. */
+/* A page, and what has room below it; from below: the text, above it the card, labels of a split
+ * screen and the mode, which is drawn last. The page has what a card and a mark are about. */
 static void lay_out_all(struct gn_captions *c) {
+    const bool page = c->captions[GN_CAPTION_INFO].text[0];
     c->bottom_px = 0;
+    c->page_px = 0;
     c->run.quad_count = 0;
-    if (is_there(c, GN_CAPTION_TEXT)) lay_out(c, GN_CAPTION_TEXT);
-    if (c->captions[GN_CAPTION_CARD].text[0]) lay_out(c, GN_CAPTION_CARD);
-    if (c->captions[GN_CAPTION_RIGHT].text[0] && c->split >= 0.0) lay_out_split(c);
     if (c->captions[GN_CAPTION_INFO].text[0]) lay_out(c, GN_CAPTION_INFO);
+    if (is_there(c, GN_CAPTION_TEXT)) lay_out(c, GN_CAPTION_TEXT);
+    if (c->captions[GN_CAPTION_CARD].text[0] && !page) lay_out(c, GN_CAPTION_CARD);
+    if (c->captions[GN_CAPTION_RIGHT].text[0] && c->split >= 0.0) lay_out_split(c);
     if (c->captions[GN_CAPTION_MODE].text[0]) lay_out(c, GN_CAPTION_MODE);
-    if (c->captions[GN_CAPTION_MARK].text[0]) lay_out_mark(c);
+    if (c->captions[GN_CAPTION_MARK].text[0] && !page) lay_out_mark(c);
 }
 
 const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t width_px,

@@ -13,6 +13,7 @@
 #include "cli/memory.h"
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/terminal.h"
 #include "image/write.h"
 #include "stage/driver_cache.h"
 #include "stage/stage.h"
@@ -241,8 +242,11 @@ static bool print_reports(const struct gn_settings *o, const struct gn_bench_rep
         gn_bench_print_csv(reports, count, stdout);
     else
         for (uint32_t i = 0; i < count; i++) {
-            if (i > 0) putchar('\n');
-            gn_bench_print(&reports[i], stdout);
+            struct gn_terminal terminal;
+            FILE *to = gn_terminal_begin(&terminal, stdout);
+            if (i > 0) fputc('\n', to);
+            gn_bench_print(&reports[i], to);
+            gn_terminal_end(&terminal);
         }
     return true;
 }

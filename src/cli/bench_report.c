@@ -9,6 +9,7 @@
 #include "cli/units.h"
 #include "core/arena.h"
 #include "core/json.h"
+#include "shadow/moments.h"
 
 static int by_value(const void *a, const void *b) {
     double x = *(const double *)a, y = *(const double *)b;
@@ -50,6 +51,72 @@ static void print_mb(FILE *to, const char *what, double mb) {
         fprintf(to, "%s %.1f MB", what, mb);
 }
 
+static void print_times(const struct gn_bench_report *report, FILE *to) {
+    fprintf(to,
+            "technique  map format     output  median ms    p95 ms    CPU ms  CPU ratio  idle\n");
+    for (uint32_t i = 0; i < report->run_count; i++) {
+        const struct gn_bench_run *run = &report->runs[i];
+        fprintf(to, "%-10s %-14s %-6s %10.2f %9.2f %9.2f %10.2f  %s\n", run->technique,
+                run->map_format, run->output, run->ms_median, run->ms_p95, run->cpu_ms,
+                run->cpu_ms / report->runs[0].cpu_ms, run->idle ? "yes" : "no");
+    }
+}
+
+static void print_counts(const struct gn_bench_report *report, FILE *to) {
+    fprintf(to, "\ntechnique   draws  shadow draws  GL calls  triangles  targets MB\n");
+    for (uint32_t i = 0; i < report->run_count; i++) {
+        const struct gn_bench_run *run = &report->runs[i];
+        const struct gn_gl_stats *s = &run->stats;
+        fprintf(to, "%-10s %6u %13u %9u %10" PRIu64 " %11.1f\n", run->technique, s->draws,
+                s->shadow_draws, s->gl_calls, s->triangles, GN_MB(s->target_bytes));
+    }
+}
+
+/* A pass's label in words: steps of one kind and light have the same. */
+static void write_words(const char *label, char *out, size_t size) {
+    unsigned slot;
+    int from = 0, end = (int)strlen(label);
+    if (sscanf(label, "shadow %u %n", &slot, &from) != 1 || from == 0) {
+        snprintf(out, size, "%s",
+                 strcmp(label, "opaque") == 0  ? "solid surfaces"
+                 : strcmp(label, "blend") == 0 ? "transparent surfaces"
+                                               : label);
+        return;
+    }
+    const char *what = "map";
+    while (end > from && strchr(" 0123456789", label[end - 1])) end--; /* how far a step reads */
+    for (int i = 0; i < GN_STEP_COUNT; i++) {
+        const int length = (int)strlen(gn_filter_steps[i].name), at = end - length;
+        if (at <= from || label[at - 1] != ' ' ||
+            strncmp(label + at, gn_filter_steps[i].name, (size_t)length) != 0)
+            continue;
+        what = gn_filter_steps[i].words;
+        end = at - 1;
+        break;
+    }
+    snprintf(out, size, "shadow of %.*s: %s", end - from, label + from, what);
+}
+
+static int by_cost(const void *a, const void *b) {
+    const struct gn_bench_pass *x = a, *y = b;
+    return (x->ms < y->ms) - (x->ms > y->ms);
+}
+
+/* The dearest first; those below .005 ms are left out. */
+static void print_passes(const struct gn_bench_run *run, FILE *to) {
+    struct gn_bench_run sums = {0};
+    const char *technique = run->technique;
+    for (uint32_t k = 0; k < run->pass_count; k++) {
+        char words[sizeof run->passes[k].label];
+        write_words(run->passes[k].label, words, sizeof words);
+        gn_bench_add_pass(&sums, words, run->passes[k].ms);
+    }
+    if (sums.pass_count) qsort(sums.passes, sums.pass_count, sizeof *sums.passes, by_cost);
+    for (uint32_t k = 0; k < sums.pass_count && sums.passes[k].ms >= .005; k++, technique = "")
+        fprintf(to, "%-10s %11.2f  %s\n", technique, sums.passes[k].ms, sums.passes[k].label);
+    free(sums.passes);
+}
+
 void gn_bench_print(const struct gn_bench_report *report, FILE *to) {
     fprintf(to, "%s, %ux%u, %s\n", report->scene, report->width_px, report->height_px,
             report->renderer);
@@ -61,24 +128,10 @@ void gn_bench_print(const struct gn_bench_report *report, FILE *to) {
         fprintf(to, "\n");
     }
     fprintf(to, "\n");
-    fprintf(to, "technique map      output  median     p95  cpu ms  ratio  draws shadows  calls "
-                "triangles targets idle\n");
-    for (uint32_t i = 0; i < report->run_count; i++) {
-        const struct gn_bench_run *run = &report->runs[i];
-        const struct gn_gl_stats *s = &run->stats;
-        fprintf(to, "%-9s %-8s %-6s %7.2f %7.2f %7.2f ", run->technique, run->map_format,
-                run->output, run->ms_median, run->ms_p95, run->cpu_ms);
-        fprintf(to, "%6.2f %6u %7u %6u %9" PRIu64 " %7.1f %s\n",
-                run->cpu_ms / report->runs[0].cpu_ms, s->draws, s->shadow_draws, s->gl_calls,
-                s->triangles, GN_MB(s->target_bytes), run->idle ? "yes" : "no");
-    }
-    fprintf(to, "\npass           ms  (in a run of its own, with a read-back after each)\n");
-    for (uint32_t i = 0; i < report->run_count; i++) {
-        const struct gn_bench_run *run = &report->runs[i];
-        for (uint32_t k = 0; k < run->pass_count; k++)
-            fprintf(to, "%-9s %7.2f  %s\n", k ? "" : run->technique, run->passes[k].ms,
-                    run->passes[k].label);
-    }
+    print_times(report, to);
+    print_counts(report, to);
+    fprintf(to, "\npass                ms  (in a run of its own, with a read-back after each)\n");
+    for (uint32_t i = 0; i < report->run_count; i++) print_passes(&report->runs[i], to);
     for (uint32_t i = 0; i < report->run_count; i++)
         if (report->runs[i].time)
             fprintf(to, "\n%s%s", report->runs[i].technique, report->runs[i].time);

@@ -10,6 +10,7 @@
 #include "cli/report.h"
 #include "core/child.h"
 #include "core/clock.h"
+#include "core/terminal.h"
 #include "display/display.h"
 
 struct attempt { /* what the child does */
@@ -196,6 +197,12 @@ static bool judge_report(const struct gn_doctor_report *report, const struct gn_
     return answer->self_tested || gn_fail(err, "self-test: %s", answer->err.text);
 }
 
+static void print_text(const struct gn_doctor_report *report) {
+    struct gn_terminal terminal;
+    gn_doctor_print(report, gn_terminal_begin(&terminal, stdout));
+    gn_terminal_end(&terminal);
+}
+
 bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warnings,
                    struct gn_err *err) {
     (void)warnings;
@@ -218,7 +225,7 @@ bool gn_cli_doctor(const struct gn_options *options, struct gn_warnings *warning
         else if (settings->run.json)
             ok = gn_doctor_print_json(&report, stdout, err);
         else
-            gn_doctor_print(&report, stdout);
+            print_text(&report);
         ok = ok && (sends || judge_report(&report, settings, answer, err));
         gn_input_list_finish(&report.input);
     }

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "core/terminal.h"
 #include "core/text.h"
 #include "options/binding.h"
 #include "options/command.h"
@@ -13,7 +14,7 @@
 #include "shadow/technique.h"
 
 #define COLUMN 26 /* where the phrases of --help begin */
-#define WIDTH  96
+#define WIDTH  96 /* of a line, but on a narrower terminal */
 #define FEW    15 /* options that fit a screen beside a command's examples */
 
 const struct gn_help_entry gn_help_exits[] = {
@@ -70,14 +71,16 @@ bool gn_help_default_button(int index, char *keys, size_t size, const char **act
 
 /* ---- lines --------------------------------------------------------------------------------- */
 
-/* A name and, from COLUMN on, its meaning, wrapped before WIDTH. */
+/* A name and, from COLUMN on, its meaning, wrapped before the end of a line. */
 static void print_entry(FILE *to, const char *name, const char *meaning) {
+    const int columns = gn_terminal_columns(stdout),
+              width = columns && columns < WIDTH ? columns : WIDTH;
     int at = fprintf(to, "  %s", name);
     if (at >= COLUMN) at = fprintf(to, "\n") - 1;
     at += fprintf(to, "%*s", COLUMN - 1 - at, "");
     while (*meaning) {
         int length = (int)strcspn(meaning, " ");
-        if (at + 1 + length > WIDTH) at = fprintf(to, "\n%*s", COLUMN - 1, "") - 1;
+        if (at + 1 + length > width) at = fprintf(to, "\n%*s", COLUMN - 1, "") - 1;
         at += fprintf(to, " %.*s", length, meaning);
         meaning += length;
         meaning += strspn(meaning, " ");

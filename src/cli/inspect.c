@@ -3,6 +3,7 @@
 #include "cli/inspect.h"
 
 #include "cli/commands.h"
+#include "core/terminal.h"
 #include "stage/environment.h"
 #include "stage/lights.h"
 #include "stage/stage.h"
@@ -53,10 +54,13 @@ static void build(struct gn_inspection *in, const struct gn_settings *o,
 static bool print(const struct gn_inspection *in, struct gn_warnings *warnings,
                   struct gn_err *err) {
     bool ok = true;
-    if (in->settings->run.json)
+    struct gn_terminal terminal;
+    if (in->settings->run.json) {
         ok = gn_inspect_print_json(in, stdout, err);
-    else
-        gn_inspect_print(in, stdout);
+    } else {
+        gn_inspect_print(in, gn_terminal_begin(&terminal, stdout));
+        gn_terminal_end(&terminal);
+    }
     *warnings = (struct gn_warnings){0}; /* they are in the report */
     return ok;
 }

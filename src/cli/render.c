@@ -10,6 +10,7 @@
 #include "cli/hours_picture.h"
 #include "core/arena.h"
 #include "core/clock.h"
+#include "core/terminal.h"
 #include "image/write.h"
 #include "shadow/grey.h"
 #include "stage/gather.h"
@@ -140,6 +141,18 @@ static void print_progress(void *user, double share) {
     fprintf(stderr, "\rrays %d %%%s", percent, percent >= 100 ? "\n" : "");
 }
 
+/* Likewise. */
+static void print_frames(int done, int all, int64_t begun_ns) {
+    const double spent_s = (double)(gn_clock_monotonic_ns() - begun_ns) / (double)GN_NS_PER_S;
+    char bar[100];
+    if (spent_s < 1 || !isatty(STDERR_FILENO)) return;
+    gn_terminal_write_bar(bar, sizeof bar, done, all, spent_s);
+    if (done < all)
+        fprintf(stderr, "\r\33[K%s", bar);
+    else
+        fprintf(stderr, "\r\33[Kwrote %d files, %.1f s\n", all, spent_s);
+}
+
 static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_settings *o = r->stage.settings;
     const size_t pixels = (size_t)o->render.size.width_px * (size_t)o->render.size.height_px;
@@ -173,9 +186,7 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
             gn_view_draw(&r->stage.shown, &r->stage, time_ns, warnings, err);
         if (!plan || !write_picture(r, plan, path, err)) return false;
         if (o->run.plan && i == 0) gn_plan_print(plan, stdout);
-        /* likewise */
-        if (frames > 1 && gn_clock_monotonic_ns() - begun_ns > GN_NS_PER_S && isatty(STDERR_FILENO))
-            fprintf(stderr, "\rframe %d of %d%s", i + 1, frames, i + 1 == frames ? "\n" : "");
+        if (frames > 1) print_frames(i + 1, frames, begun_ns);
     }
     return true;
 }

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <string.h>
 
+#include "core/terminal.h"
 #include "core/text.h"
 
 void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
@@ -28,7 +29,8 @@ void gn_warn(struct gn_warnings *warnings, const char *format, ...) {
 
 void gn_warn_flush(struct gn_warnings *warnings, FILE *to) {
     while (warnings->printed < warnings->count)
-        fprintf(to, "gnomon: warning: %s\n", warnings->text[warnings->printed++]);
+        fprintf(to, "%sgnomon: warning:%s %s\n", gn_terminal_tint(to, GN_TINT_YELLOW),
+                gn_terminal_tint(to, GN_TINT_NONE), warnings->text[warnings->printed++]);
 }
 
 void gn_warn_print(struct gn_warnings *warnings, FILE *to) {

@@ -86,10 +86,15 @@ static bool set_option(struct gn_show_screen *s, const char *key, const char *va
     return false;
 }
 
-/* One that is shown becomes none; else the studio, unless the settings name a file. */
+/* One that is shown becomes none, else the studio: of less strength beside a scene's own lights,
+ * unless the settings have one. */
 static void change_environment(struct gn_show_screen *s) {
     const bool shown = s->looks.of[s->kiosk.shown.mode].frame_opts.environment.of;
+    const bool adds = !shown && s->stage.scene->light_count > 0 && !s->stage.scene->added.light;
     const char *next = shown ? "none" : "studio";
+    if (adds && !gn_settings_given(s->stage.settings, render.environment_strength) &&
+        !set_option(s, "environment-strength", "0.35"))
+        return;
     if (set_option(s, "environment", next)) gn_show_note(s, "Environment: %s", next);
 }
 

@@ -22,19 +22,19 @@ const struct gn_moments_row gn_moments[GN_MOMENTS_ALL] = {
 };
 
 const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {
-    [GN_STEP_BLUR_X] = {"blur x", "filter/blur_x.frag", true},
-    [GN_STEP_BLUR_Y] = {"blur y", "filter/blur_y.frag", false},
-    [GN_STEP_TABLE_ROWS] = {"rows", "filter/table_rows.frag", true},
-    [GN_STEP_TABLE_ROW_SUMS] = {"row sums", "filter/table_row_sums.frag", false},
-    [GN_STEP_TABLE_COLUMNS] = {"columns", "filter/table_columns.frag", false},
-    [GN_STEP_TABLE_COLUMN_SUMS] = {"column sums", "filter/table_column_sums.frag", false},
-    [GN_STEP_TABLE_ADD] = {"table", "filter/table_add.frag", false},
-    [GN_STEP_CONE_SEEDS] = {"cones", "filter/cone_seeds.frag", true},
-    [GN_STEP_CONE_SEEDS_4] = {"cones 4", "filter/cone_seeds_4.frag", true},
-    [GN_STEP_CONE_SEEDS_8] = {"cones 8", "filter/cone_seeds_8.frag", true},
-    [GN_STEP_CONE_EDGES] = {"edges", "filter/cone_edges.frag", false},
-    [GN_STEP_CONE_FLOOD] = {"flood", "filter/cone_flood.frag", false},
-    [GN_STEP_FLOOR] = {"alpha", "filter/floor.frag", true},
+    [GN_STEP_BLUR_X] = {"blur x", "filter/blur_x.frag", true, "blur"},
+    [GN_STEP_BLUR_Y] = {"blur y", "filter/blur_y.frag", false, "blur"},
+    [GN_STEP_TABLE_ROWS] = {"rows", "filter/table_rows.frag", true, "sums"},
+    [GN_STEP_TABLE_ROW_SUMS] = {"row sums", "filter/table_row_sums.frag", false, "sums"},
+    [GN_STEP_TABLE_COLUMNS] = {"columns", "filter/table_columns.frag", false, "sums"},
+    [GN_STEP_TABLE_COLUMN_SUMS] = {"column sums", "filter/table_column_sums.frag", false, "sums"},
+    [GN_STEP_TABLE_ADD] = {"table", "filter/table_add.frag", false, "sums"},
+    [GN_STEP_CONE_SEEDS] = {"cones", "filter/cone_seeds.frag", true, "cones"},
+    [GN_STEP_CONE_SEEDS_4] = {"cones 4", "filter/cone_seeds_4.frag", true, "cones"},
+    [GN_STEP_CONE_SEEDS_8] = {"cones 8", "filter/cone_seeds_8.frag", true, "cones"},
+    [GN_STEP_CONE_EDGES] = {"edges", "filter/cone_edges.frag", false, "edges"},
+    [GN_STEP_CONE_FLOOD] = {"flood", "filter/cone_flood.frag", false, "nearest edges"},
+    [GN_STEP_FLOOR] = {"alpha", "filter/floor.frag", true, "floor"},
 };
 
 const struct gn_filter_row gn_filters[GN_FILTER_COUNT] = {

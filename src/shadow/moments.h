@@ -61,9 +61,10 @@ enum gn_filter_step {
     GN_STEP_COUNT,
 };
 struct gn_filter_step_row {
-    const char *name; /* of passes, for printing */
-    const char *file; /* below shaders_es/ */
-    bool reads_map;   /* codes; else moments */
+    const char *name;  /* of passes, for printing */
+    const char *file;  /* below shaders_es/ */
+    bool reads_map;    /* codes; else moments */
+    const char *words; /* for people; steps of one kind have the same */
 };
 extern const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT];
 

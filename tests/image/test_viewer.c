@@ -219,7 +219,8 @@ static void test_e_switches_the_environment(void **state) {
     assert_shows(&s, window_scene, NULL, "viewer-environment");
     press(&s, XK_e);
     assert_shows(&s, window_scene,
-                 (const char *const[]){"--environment", "studio", "--occlusion", "none", NULL},
+                 (const char *const[]){"--environment", "studio", "--environment-strength", "0.35",
+                                       "--occlusion", "none", NULL},
                  "viewer-studio");
     press(&s, XK_e);
     assert_shows(&s, window_scene, (const char *const[]){"--environment", "none", NULL},
