@@ -35,7 +35,6 @@ struct gn_caps {
     char vendor[64], renderer[96], version[96];
     bool software; /* llvmpipe, softpipe, swrast, SwiftShader */
     bool etc2;     /* it reads ETC2 and EAC, as every OpenGL ES 3.0 does */
-    bool tiler;    /* it keeps a tile of the picture on chip, with all its samples */
 };
 /* The encodings that caps claim, and prove once gn_gl_prove() has tried them; for
  * gn_encoding_choose. */

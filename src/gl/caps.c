@@ -37,19 +37,10 @@ static void copy_string(struct gn_gl *gl, GLenum what, char *out, size_t size) {
     snprintf(out, size, "%s", text ? (const char *)text : "unknown");
 }
 
-static bool is_software(const char *renderer) {
+bool gn_gl_is_software(const char *renderer) {
     return strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
            strstr(renderer, "swrast") || strstr(renderer, "Software Rasterizer") ||
            strstr(renderer, "SwiftShader");
-}
-
-/* By the names that drivers report, Mesa's and the vendors' own; zink's name contains the GPU's. */
-bool gn_gl_is_tiler(const char *renderer) {
-    static const char *const names[] = {"V3D ", "VideoCore", "Mali", "Adreno", "PowerVR", "Apple "};
-    if (is_software(renderer)) return false;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (strstr(renderer, names[i])) return true;
-    return strncmp(renderer, "FD", 2) == 0 && renderer[2] >= '0' && renderer[2] <= '9';
 }
 
 /* ---- proof ---- */
@@ -104,8 +95,7 @@ bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn
     copy_string(gl, GL_VENDOR, caps->vendor, sizeof caps->vendor);
     copy_string(gl, GL_RENDERER, caps->renderer, sizeof caps->renderer);
     copy_string(gl, GL_VERSION, caps->version, sizeof caps->version);
-    caps->software = is_software(caps->renderer);
-    caps->tiler = gn_gl_is_tiler(caps->renderer);
+    caps->software = gn_gl_is_software(caps->renderer);
     caps->etc2 = strncmp(caps->version, "OpenGL ES ", 10) == 0 ||
                  has_extension(gl, "GL_ARB_ES3_compatibility");
     GL(gl, GetIntegerv)(GL_MAX_TEXTURE_SIZE, &caps->max_texture_px);

@@ -108,7 +108,7 @@ void gn_gl_read_floats(struct gn_gl *gl, uint32_t width, uint32_t height, float 
 /* False, and a line that names the GPU, when the context is too old. Needs no table. */
 bool gn_gl_version_check(const struct gn_gl_opts *opts, struct gn_err *err);
 /* By GL_RENDERER. */
-bool gn_gl_is_tiler(const char *renderer);
+bool gn_gl_is_software(const char *renderer);
 bool gn_gl_caps_learn(struct gn_gl *gl, const struct gn_gl_opts *opts, struct gn_err *err);
 /* gn_cap bits of what the driver calls complete: no proof, but what to start from. */
 uint32_t gn_gl_probe_claims(struct gn_gl *gl);

@@ -101,7 +101,7 @@ GN_OPTION(.name = "tone", .section = "render", .kind = GN_KIND_CHOICE, .choices 
 GN_OPTION(.name = "background", .section = "render", .kind = GN_KIND_COLOR, .choices = backgrounds, .value = "COLOUR", .fallback = "auto",
           .help = "what is behind the scene: a colour #rrggbb; auto: gnomon_background, else a grey in the light of the studio where that lights the scene, else sky; sky: the mean of gnomon_sky and gnomon_ground; transparent: .png files get straight alpha, screens black", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(render.background))
 GN_OPTION(.name = "msaa", .section = "render", .kind = GN_KIND_CHOICE, .choices = samples, .value = "N", .unit = "samples", .fallback = "auto",
-          .help = "multisampling; auto: 4 in .png files, and on screens where the GPU keeps samples on its chip (tiling GPUs), if they take at most 256 MB; else 0, as in windows drawn by software, with --output linear, .pfm, --aov and --shadow truth", .commands = DRAW | MODEL, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
+          .help = "multisampling; auto: 4, if they take at most 256 MB; 0 on screens drawn by software, with --output linear, .pfm, --aov and --shadow truth", .commands = DRAW | MODEL, .change = GN_CHANGE_RELOAD, .offset = FIELD(render.msaa))
 GN_OPTION(.name = "font", .section = "render", .kind = GN_KIND_PATH, .value = "FILE",
           .help = "font of captions (.ttf, .otf); without it DejaVu Sans or a similar one", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_RELOAD, .offset = FIELD(render.font))
 GN_OPTION(.name = "shaders", .section = "render", .kind = GN_KIND_PATH, .value = "DIR",

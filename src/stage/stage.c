@@ -327,7 +327,7 @@ uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t
     const struct gn_caps *caps = gn_gl_caps(stage->gl);
     if (o->render.msaa != GN_MSAA_AUTO) return (uint32_t)o->render.msaa;
     const bool measured = f->output.linear || f->output.floats || casts_rays(&f->shadow);
-    if (measured || !(caps->has & 1u << GN_CAP_MSAA4) || !(caps->tiler || to_file)) return 0;
+    if (measured || !(caps->has & 1u << GN_CAP_MSAA4) || (caps->software && !to_file)) return 0;
     return (uint64_t)width_px * height_px <= MSAA_MOST_PIXELS ? 4 : 0;
 }
 

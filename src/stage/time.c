@@ -82,8 +82,7 @@ bool gn_stage_time_build(struct gn_stage_time *time, struct gn_stage *stage,
     const struct gn_caps caps = {.has = (1u << GN_CAP_COUNT) - 1,
                                  .max_texture_px = TEXTURE_PX,
                                  .max_texture_units = GN_SAMPLERS_MAX,
-                                 .etc2 = true,
-                                 .tiler = true};
+                                 .etc2 = true};
     *time = (struct gn_stage_time){0};
     time->table = text ? gn_cost_table_create((const char *)text->data, gpu->name) : NULL;
     if (!time->table) return gn_fail(err, "this build knows no program of %s", gpu->name);

@@ -301,29 +301,29 @@ static void test_embedded(void **state) {
     {#name " egl", name, NULL, NULL, "egl"}, { #name " osmesa", name, NULL, NULL, "osmesa" }
 
 /* As Mesa's drivers and the makers' own name themselves. */
-static void test_tilers_by_name(void **state) {
+static void test_software_by_name(void **state) {
     (void)state;
-    static const char *const tilers[] = {"V3D 4.2.14.0",
-                                         "V3D 7.1.7.0",
-                                         "Mali-G52 r1 (Panfrost)",
-                                         "Mali-G610 (Panfrost)",
-                                         "Mali-G610",
-                                         "FD618",
-                                         "Adreno (TM) 650",
-                                         "PowerVR AXE-1-16M",
-                                         "zink Vulkan 1.3(PowerVR B-Series BXS-4-64 (IMG))"};
-    static const char *const others[] = {"llvmpipe (LLVM 15.0.6, 256 bits)",
-                                         "softpipe",
-                                         "Mesa Intel(R) UHD Graphics 620 (KBL GT2)",
-                                         "AMD Radeon RX 580 Series (polaris10)",
-                                         "NVIDIA H200/PCIe/SSE2",
-                                         "virgl (llvmpipe)",
-                                         "Vivante GC7000 rev 6214",
-                                         "FDO"};
-    for (size_t i = 0; i < sizeof tilers / sizeof *tilers; i++)
-        if (!gn_gl_is_tiler(tilers[i])) fail_msg("%s", tilers[i]);
+    static const char *const gpus[] = {"V3D 4.2.14.0",
+                                       "V3D 7.1.7.0",
+                                       "Mali-G52 r1 (Panfrost)",
+                                       "Mali-G610 (Panfrost)",
+                                       "Mali-G610",
+                                       "FD618",
+                                       "Adreno (TM) 650",
+                                       "PowerVR AXE-1-16M",
+                                       "zink Vulkan 1.3(PowerVR B-Series BXS-4-64 (IMG))",
+                                       "Mesa Intel(R) UHD Graphics 620 (KBL GT2)",
+                                       "AMD Radeon RX 580 Series (polaris10)",
+                                       "NVIDIA H200/PCIe/SSE2",
+                                       "Vivante GC7000 rev 6214",
+                                       "FDO"};
+    static const char *const others[] = {
+        "llvmpipe (LLVM 15.0.6, 256 bits)", "softpipe", "virgl (llvmpipe)",
+        "ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (Subzero)), SwiftShader driver)"};
+    for (size_t i = 0; i < sizeof gpus / sizeof *gpus; i++)
+        if (gn_gl_is_software(gpus[i])) fail_msg("%s", gpus[i]);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (gn_gl_is_tiler(others[i])) fail_msg("%s", others[i]);
+        if (!gn_gl_is_software(others[i])) fail_msg("%s", others[i]);
 }
 
 int main(void) {
@@ -338,7 +338,7 @@ int main(void) {
         TEST(test_stopped_between_programs),
         TEST(test_groups_only_by_the_extension),
         TEST(test_embedded),
-        cmocka_unit_test(test_tilers_by_name),
+        cmocka_unit_test(test_software_by_name),
     };
     return RUN(tests);
 }
