@@ -3,7 +3,7 @@
 # file, screenshots, reload with a bad file, --check.
 . tests/kiosk.sh
 compare=$(realpath "${BUILD:-build/release}/tests/tool_compare")
-cp assets/sundial.glb "$folder/"
+cp assets/bench/yard.glb "$folder/sundial.glb"
 cp assets/lessons/solids.glb "$folder/other.glb"
 cd "$folder" || exit 1
 
