@@ -1,4 +1,4 @@
-// Alpha of an unseen floor in a byte, filtered by the sampler (filter/floor.frag).
+// Alpha of an unseen floor times its weight, and that, in bytes, filtered by the sampler (filter/floor.frag).
 #undef MOMENTS_SAMPLER
 #undef MOMENTS_OUT
 #define MOMENTS_SAMPLER sampler2D

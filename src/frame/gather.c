@@ -41,9 +41,8 @@ void gn_frame_gather_points(struct gn_frame *frame, const struct gn_frame_opts *
         uint32_t more = opts->shadow.gather_points;
         if (more && is_floor) more = gn_frame_floor_points(frame);
         lamp->drawn = more && before + more < lamp->count ? before + more : lamp->count;
-        /* where no point is seen; bytes are subtracted: all points are 256 of 255, which ends at 0
-         */
-        const uint32_t hidden = 256 * lamp->drawn / lamp->count;
+        /* where no point is seen; 256 of 255 end at 0 */
+        const uint32_t hidden = lamp->bytes * lamp->drawn / lamp->count;
         view->penumbra.scale = hidden < 255 ? 255.0f / (float)hidden : 1.0f;
         view->penumbra.bias = 1.0f - view->penumbra.scale;
         if (opts->all_seen) continue; /* it is not drawn */
@@ -59,11 +58,18 @@ void gn_frame_set_points(struct gn_frame *frame, uint32_t slot, struct gn_pass *
     float(**points)[4] = &frame->gathered[slot].points;
     if (view->encoding != GN_ENCODING_MEAN) return;
     /* also while it is empty: a later frame allocates nothing */
-    if (!*points) *points = gn_xalloc(GN_LAMP_POINTS_MAX, GN_POINT_CONSTANTS * sizeof **points);
-    for (uint32_t i = 0; i < view->lamp.drawn; i++) {
-        mat4 clip_from_world;
+    if (!*points) *points = gn_xalloc(GN_LAMP_POINTS_MAX + 1, GN_POINT_CONSTANTS * sizeof **points);
+    float(*to)[4] = *points;
+    mat4 clip_from_world;
+    for (uint32_t i = 0; i < view->lamp.drawn; i++, to += GN_POINT_CONSTANTS) {
         gn_planar_point(view, i, clip_from_world);
-        gn_frame_shadow_constants(view, clip_from_world, *points + i * GN_POINT_CONSTANTS);
+        gn_frame_shadow_constants(view, clip_from_world, to);
+    }
+    if (view->technique == GN_TECHNIQUE_FLOOR && view->lamp.drawn > 0) {
+        gn_planar_footprint(view, clip_from_world);
+        gn_frame_shadow_constants(view, clip_from_world, to);
+        to[PASS_CODE_ADD][0] = 1.0f; /* all of a texel: 0 is under a foot, and nowhere else */
+        pass->map.foot = (const float(*)[4])to;
     }
     pass->map.point_count = view->lamp.drawn;
     pass->map.points = *points;

@@ -223,6 +223,7 @@ struct gn_pass {
              * Points that the map already has are skipped. */
             uint32_t point_count;     /* that it has after this pass; 0: none, it is only cleared */
             const float (*points)[4]; /* GN_POINT_CONSTANTS each */
+            const float (*foot)[4];   /* with the first of them, both sides of all faces; or NULL */
         } map;
         struct gn_pass_copy {
             struct gn_target from; /* undefined afterwards */

@@ -97,22 +97,33 @@ static enum gn_clear_area begin_clear(const struct gn_plan *plan, struct gn_gl_m
     return map->cleared ? GN_CLEAR_NOTHING : GN_CLEAR_RECT;
 }
 
-/* Draws the points of a lamp that its mask lacks, from so many on. The depth buffer shows which
- * texels a point has darkened already. */
+/* The depth buffer shows which texels it has darkened already: `nth` of the pass is nearer than
+ * those before it. */
+static bool draw_point(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *point,
+                       uint32_t nth, bool two_sided, struct gn_err *err) {
+    const uint64_t hash =
+        gn_hash(GN_HASH_INIT, point->constants, point->constant_count * sizeof *point->constants);
+    gn_gl_set_one_depth(gl, 1.0f - (float)(nth + 1) / (GN_LAMP_POINTS_MAX + 1));
+    for (uint32_t k = 0; k < point->draw_count; k++) {
+        struct gn_draw draw = plan->draws[point->first_draw + k];
+        if (two_sided) draw.cull = GN_CULL_NONE;
+        if (!gn_gl_draw_in_pieces(gl, point, &draw, hash, err)) return false;
+    }
+    return true;
+}
+
+/* Draws the points of a lamp that its mask lacks, from so many on, and first what stands on it. */
 static bool draw_points(struct gn_gl *gl, const struct gn_plan *plan, const struct gn_pass *pass,
                         uint32_t first, struct gn_err *err) {
     static const float farthest = 1.0f;
     struct gn_pass point = *pass;
     point.constant_count = GN_POINT_CONSTANTS;
     if (first > 0) GL(gl, ClearBufferfv)(GL_DEPTH, 0, &farthest);
+    point.constants = pass->map.foot;
+    if (first == 0 && point.constants && !draw_point(gl, plan, &point, 0, true, err)) return false;
     for (uint32_t i = first; i < pass->map.point_count; i++) {
         point.constants = pass->map.points + i * GN_POINT_CONSTANTS;
-        const uint64_t hash =
-            gn_hash(GN_HASH_INIT, point.constants, GN_POINT_CONSTANTS * sizeof *point.constants);
-        gn_gl_set_one_depth(gl, 1.0f - (float)(i + 1 - first) / (GN_LAMP_POINTS_MAX + 1));
-        for (uint32_t k = 0; k < pass->draw_count; k++)
-            if (!gn_gl_draw_in_pieces(gl, &point, &plan->draws[pass->first_draw + k], hash, err))
-                return false;
+        if (!draw_point(gl, plan, &point, i - first, false, err)) return false;
     }
     gn_gl_set_one_depth(gl, 0);
     return true;

@@ -232,7 +232,7 @@ static const GLenum moments_formats[GN_MOMENTS_ALL] = {
     [GN_MOMENTS_CONE_RG16F] = GL_RG16F,
     [GN_MOMENTS_CONE_BITS] = GL_R32UI,
     [GN_MOMENTS_CONE_BYTES] = GL_RGBA8,
-    [GN_MOMENTS_FLOOR] = GL_R8,
+    [GN_MOMENTS_FLOOR] = GL_RG8,
 };
 
 static void map_finish(struct gn_gl *gl, struct gn_gl_map *map) {

@@ -163,6 +163,7 @@ struct gn_shadow_penumbra {
 /* The points of a lamp whose shadows a planar mask is the mean of; encoding MEAN. */
 struct gn_shadow_lamp {
     uint32_t count;   /* 0: none; 1: its middle; else as in lamp.h */
+    uint32_t bytes;   /* of 255, that all points take from a texel */
     uint32_t drawn;   /* those whose shadows the mask has after this frame; the frame's choice */
     float axes[3][3]; /* world space, to where lamp.h has 1 on x, y and z; z of a sun: 0 */
     float corner[2];  /* of the mask, plane coordinates */

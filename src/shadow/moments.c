@@ -18,7 +18,7 @@ const struct gn_moments_row gn_moments[GN_MOMENTS_ALL] = {
     [GN_MOMENTS_CONE_RG16F] = {"rg16f", "lib/cone_16f.glsl", "sampler2D", 4, true, true},
     [GN_MOMENTS_CONE_BITS] = {"rg16f-bits", "lib/cone_bits.glsl", "usampler2D", 4, false, false},
     [GN_MOMENTS_CONE_BYTES] = {"rg16f-bytes", "lib/cone_bytes.glsl", "sampler2D", 4, false, false},
-    [GN_MOMENTS_FLOOR] = {"r8", "lib/floor_8.glsl", "sampler2D", 1, true, true},
+    [GN_MOMENTS_FLOOR] = {"rg8", "lib/floor_8.glsl", "sampler2D", 2, true, true},
 };
 
 const struct gn_filter_step_row gn_filter_steps[GN_STEP_COUNT] = {

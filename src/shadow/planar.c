@@ -20,6 +20,9 @@
     (1.0f / 128.0f) /* of the light's height: casters end this far below the light */
 #define CONE_MAX_RAD 1.48f
 #define LEAST_TEXELS 0.5f /* narrower penumbrae have one point */
+#define FOOT_TEXELS                                                                                \
+    0.25f /* what lies as near to the plane stands on it: no light is seen below                   \
+           */
 
 /* The light as a point, or a point of a lamp. */
 struct aim {
@@ -332,6 +335,18 @@ void gn_planar_point(const struct gn_shadow_view *view, uint32_t index, mat4 cli
     clip_from(view, &aim, view->lamp.corner, clip_from_world);
 }
 
+void gn_planar_footprint(const struct gn_shadow_view *view, mat4 clip_from_world) {
+    vec4 *plane_from_world = (vec4 *)view->raster.tiles[0].light_from_world;
+    const float thick_m = fmaxf(view->lamp.low_m, FOOT_TEXELS * view->lookup.texel);
+    vec3 up;
+    struct aim aim;
+    for (int k = 0; k < 3; k++) up[k] = plane_from_world[k][2];
+    set_aim(view, up, &aim);
+    aim.low_m = -thick_m;
+    aim.high_m = thick_m;
+    clip_from(view, &aim, view->lamp.corner, clip_from_world);
+}
+
 /* The mask's content is decided by the lamp, too. */
 static uint64_t hash_lamp(const struct gn_shadow_view *view, uint64_t hash) {
     const struct gn_shadow_lamp *lamp = &view->lamp;
@@ -420,8 +435,9 @@ bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points) {
         const bool is_sharp = 2.0f * penumbra_of(&f, radius) < LEAST_TEXELS * view->lookup.texel;
         memcpy(view->lamp.corner, corner, sizeof corner);
         view->lamp.count = is_sharp ? 1 : points;
+        view->lamp.bytes = view->technique == GN_TECHNIQUE_FLOOR ? 128 : 256;
         view->code.scale = 0.0f; /* casters write the weight of a point */
-        view->code.offset = is_sharp ? 1.0f : 256.0f / 255.0f / (float)points;
+        view->code.offset = fminf((float)view->lamp.bytes / 255.0f / (float)view->lamp.count, 1.0f);
     }
     view->raster.tiles[0].content_hash =
         hash_lamp(view, gn_shadow_hash(pose, view, view->raster.tiles, memory->casts));

@@ -30,5 +30,7 @@ bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points);
 
 /* Draws the shadows that a point of the lamp throws, of view->lamp.count; encoding MEAN. */
 void gn_planar_point(const struct gn_shadow_view *view, uint32_t index, mat4 clip_from_world);
+/* Draws, from straight above, what stands on the plane. Technique FLOOR. */
+void gn_planar_footprint(const struct gn_shadow_view *view, mat4 clip_from_world);
 
 #endif

@@ -69,14 +69,16 @@ static struct gn_picture draw(const char *scene, const char *technique, const ch
     return picture;
 }
 
-/* Root mean square of the difference where truth is between, the largest one, and how many. */
+/* Root mean square of the difference where truth is between, the largest one, how many, and by how
+ * much the pixels beside a body are darker. */
 struct difference {
-    double rms, most;
+    double rms, most, darker;
     int count;
 };
 static struct difference differ(const struct gn_picture *truth, const struct gn_picture *shot,
                                 const struct gn_picture *distance) {
     struct difference d = {0};
+    int beside = 0;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
             bool floor = true; /* and no edge of a body near */
@@ -85,15 +87,20 @@ static struct difference differ(const struct gn_picture *truth, const struct gn_
                 floor &= px >= 0 && py >= 0 && px < WIDTH && py < HEIGHT &&
                          isinf(gn_picture_at(distance, px, py)[0]);
             }
-            if (!floor) continue;
             const double t = (double)gn_picture_at(truth, x, y)[0],
-                         by = fabs((double)gn_picture_at(shot, x, y)[0] - t);
+                         brighter = (double)gn_picture_at(shot, x, y)[0] - t, by = fabs(brighter);
+            if (!floor && isinf(gn_picture_at(distance, x, y)[0])) {
+                d.darker -= fmin(brighter, 0);
+                beside++;
+            }
+            if (!floor) continue;
             d.most = fmax(d.most, by);
             if (t <= .02 || t >= .98) continue;
             d.rms += by * by;
             d.count++;
         }
     d.rms = sqrt(d.rms / fmax(d.count, 1));
+    d.darker /= fmax(beside, 1);
     return d;
 }
 
@@ -147,6 +154,29 @@ static void test_its_alpha_is_what_light_it_lacks(void **state) {
             gn_picture_finish(&shot);
             gn_picture_finish(&distance);
         }
+}
+
+/* A texel under a foot is dark. Of a pixel beside it neither the sampler nor mipmaps, which a mask
+ * finer than the picture has, may take any of that. */
+static void test_it_is_no_darker_beside_what_stands(void **state) {
+    (void)state;
+    for (int body = 0; body < BODIES; body++) {
+        const char *scene = write_scene(body);
+        struct gn_picture distance =
+                              draw(scene, "none",
+                                   (const char *const[]){"--msaa", "0", "--aov", "distance", NULL}),
+                          truth = draw(
+                              scene, "truth",
+                              (const char *const[]){"--msaa", "0", LAMP, "--samples", "256", NULL}),
+                          shot =
+                              draw(scene, "cone", (const char *const[]){"--msaa", "0", LAMP, NULL});
+        const struct difference d = differ(&truth, &shot, &distance);
+        print_message("%d: %.4f darker\n", body, d.darker);
+        assert_true(d.darker <= .0005);
+        gn_picture_finish(&truth);
+        gn_picture_finish(&shot);
+        gn_picture_finish(&distance);
+    }
 }
 
 /* ---- from frame to frame ---- */
@@ -322,6 +352,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_its_penumbrae_are_true),
         cmocka_unit_test(test_its_alpha_is_what_light_it_lacks),
+        cmocka_unit_test(test_it_is_no_darker_beside_what_stands),
         cmocka_unit_test(test_it_converges_unseen),
         cmocka_unit_test(test_what_moves_has_the_lights_own_map),
         cmocka_unit_test(test_it_is_not_seen_from_below),
