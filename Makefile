@@ -295,7 +295,7 @@ ASSET_C := $(filter-out assets/make_%,$(wildcard assets/*.c)) $(wildcard src/sha
 HOST_ASSETS := $(patsubst assets/%.c,$(O)/host/%,$(wildcard assets/make_*.c))
 MAN_C   := $(filter-out $(patsubst %,src/options/%.c,args change content file ini lesson),$(wildcard src/options/*.c)) \
            $(addprefix src/,cli/help.c core/arena.c core/err.c core/key.c core/text.c \
-           frame/caps.c display/kms/modeline.c scene/limits.c core/memory.c shadow/moments.c shadow/technique.c)
+           core/terminal.c frame/caps.c display/kms/modeline.c scene/limits.c core/memory.c shadow/moments.c shadow/technique.c)
 $(O)/host/embed: board/host/embed.c
 $(O)/host/man $(O)/host/completion: $(O)/host/%: board/host/%.c $(MAN_C) $(wildcard src/*/*.h src/*/*/*.h) | $(B)/gen/config.h
 $(O)/host/man $(O)/host/completion: HOST_LIBS = $(shell pkg-config --cflags libdrm)

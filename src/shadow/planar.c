@@ -437,7 +437,7 @@ bool gn_planar_fit(const struct gn_fitter *fitter, uint32_t points) {
         view->lamp.count = is_sharp ? 1 : points;
         view->lamp.bytes = view->technique == GN_TECHNIQUE_FLOOR ? 128 : 256;
         view->code.scale = 0.0f; /* casters write the weight of a point */
-        view->code.offset = (float)view->lamp.bytes / 255.0f / (float)view->lamp.count;
+        view->code.offset = fminf((float)view->lamp.bytes / 255.0f / (float)view->lamp.count, 1.0f);
     }
     view->raster.tiles[0].content_hash =
         hash_lamp(view, gn_shadow_hash(pose, view, view->raster.tiles, memory->casts));
