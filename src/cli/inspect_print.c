@@ -6,7 +6,9 @@
 #include "cli/units.h"
 #include "core/json.h"
 #include "core/text.h"
+#include "options/date.h"
 #include "stage/lights.h"
+#include "stage/sun.h"
 
 static double max_channel(const struct gn_light *light) {
     return (double)fmaxf(light->color[0], fmaxf(light->color[1], light->color[2]));
@@ -88,6 +90,40 @@ static void print_image(FILE *to, uint32_t i, const struct gn_image *image) {
                        GN_MB(gn_scene_image_bytes(image)));
 }
 
+/* "10:09 to 16:06" by the clock of time_zone; "" without a place. */
+static void print_day(const struct gn_settings *o, double utc_s, char *out, size_t size) {
+    static const char *const kinds[] = {
+        [GN_SUN_STAYS_UP] = ", up all day", [GN_SUN_STAYS_DOWN] = ", down all day"};
+    struct gn_place place;
+    char rise[64] = "", set[64] = "";
+    if (!gn_stage_sun_place(o, &place)) return;
+    const struct gn_sun_day day = gn_sun_day(utc_s, &place);
+    if (!isnan(day.rise_s)) gn_date_print(day.rise_s, o->sun.time_zone, rise, sizeof rise);
+    if (!isnan(day.set_s)) gn_date_print(day.set_s, o->sun.time_zone, set, sizeof set);
+    if (day.kind != GN_SUN_RISES)
+        snprintf(out, size, "%s", kinds[day.kind]);
+    else
+        snprintf(out, size, "%s%s%s%s", rise[0] ? ", rises " : "", rise, set[0] ? ", sets " : "",
+                 set);
+}
+
+static void print_sun(const struct gn_inspection *in, FILE *to) {
+    const struct gn_settings *o = in->settings;
+    char moment[96] = "", day[160] = "";
+    double utc_s;
+    struct gn_err err = {0};
+    if (!o || !gn_stage_sun_is_set(o) || !gn_stage_sun_time(o, &utc_s, &err)) return;
+    const int light = gn_stage_sun_light(in->scene);
+    const struct gn_sun_view view = gn_stage_sun_view(o, utc_s);
+    gn_stage_sun_print(o, utc_s, moment, sizeof moment);
+    print_day(o, utc_s, day, sizeof day);
+    fprintf(to, "\nSun\n");
+    gn_text_print_line(to, "    %s%sazimuth %.2f, altitude %.2f degrees%s%s%s", moment,
+                       moment[0] ? ": " : "", view.azimuth_deg, view.altitude_deg, day,
+                       light < 0 ? "; no light can be it" : "; it is the light ",
+                       light < 0 ? "" : in->scene->lights[light].name);
+}
+
 static void print_lists(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene *s = in->scene;
     const struct counts n = count_parts(s);
@@ -115,6 +151,7 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
         print_settings(in, i, own, sizeof own);
         if (own[0]) gn_text_print_line(to, "    by the configuration: %s", own);
     }
+    print_sun(in, to);
     fprintf(to, "\nCameras\n");
     for (uint32_t i = 0; i < s->camera_count; i++) {
         const struct gn_camera *c = &s->cameras[i];

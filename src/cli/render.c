@@ -14,6 +14,7 @@
 #include "image/write.h"
 #include "shadow/grey.h"
 #include "stage/gather.h"
+#include "stage/sun.h"
 
 struct render {
     struct gn_stage stage;
@@ -153,6 +154,20 @@ static void print_frames(int done, int all, int64_t begun_ns) {
         fprintf(stderr, "\r\33[Kwrote %d files, %.1f s\n", all, spent_s);
 }
 
+/* Of one frame; laid out anew only where the text is another one. */
+static void write_caption(struct render *r) {
+    const struct gn_settings *o = r->stage.settings;
+    struct gn_frame_opts *f = &r->stage.shown.opts;
+    const char *caption = o->run.caption ? o->run.caption : "";
+    char moment[96] = "", text[2048];
+    if (!r->captions) return;
+    if (o->sun.caption) gn_stage_sun_print(o, f->view.sun_utc_s, moment, sizeof moment);
+    snprintf(text, sizeof text, "%s%s%s", caption, *caption && *moment ? "\n" : "", moment);
+    gn_captions_set(r->captions, GN_CAPTION_TEXT, text, 0);
+    f->cover.captions = gn_captions_run(r->captions, (uint32_t)o->render.size.width_px,
+                                        (uint32_t)o->render.size.height_px, 0);
+}
+
 static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct gn_err *err) {
     const struct gn_settings *o = r->stage.settings;
     const size_t pixels = (size_t)o->render.size.width_px * (size_t)o->render.size.height_px;
@@ -173,14 +188,16 @@ static bool draw_frames(struct render *r, struct gn_warnings *warnings, struct g
                                             : snprintf(path, sizeof path, "%s", o->run.out);
         if (length < 0 || (size_t)length >= sizeof path)
             return gn_fail_usage(err, "-o: that name is too long");
-        int64_t time_ns =
-            o->scene.time_ns + (int64_t)llround((double)i / o->run.fps * (double)GN_NS_PER_S);
+        const double after_s = (double)i / o->run.fps;
+        int64_t time_ns = o->scene.time_ns + (int64_t)llround(after_s * (double)GN_NS_PER_S);
         r->begun_ns = r->percent = 0;
         r->stage.shown.opts = look;
+        r->stage.shown.opts.view.sun_utc_s += o->sun.speed * after_s;
         if (r->hours) {
             if (!write_hours(r, time_ns, path, warnings, err)) return false;
             continue;
         }
+        write_caption(r);
         if (gathers) gn_stage_gather(&r->stage, &r->stage.shown, time_ns, warnings);
         const struct gn_plan *plan =
             gn_view_draw(&r->stage.shown, &r->stage, time_ns, warnings, err);
@@ -227,12 +244,9 @@ bool gn_cli_render(const struct gn_options *options, struct gn_warnings *warning
     if (ok)
         r.stage.shown.opts.output.msaa = gn_stage_msaa(&r.stage, (uint32_t)o->render.size.width_px,
                                                        (uint32_t)o->render.size.height_px, true);
-    if (ok && o->run.caption) { /* it stays: one layout for all frames */
+    if (ok && (o->run.caption || o->sun.caption)) {
         const struct gn_captions_opts opts = {.font = o->render.font, .warnings = warnings};
         r.captions = gn_captions_create(&opts);
-        gn_captions_set(r.captions, GN_CAPTION_TEXT, o->run.caption, 0);
-        r.stage.shown.opts.cover.captions = gn_captions_run(
-            r.captions, (uint32_t)o->render.size.width_px, (uint32_t)o->render.size.height_px, 0);
     }
     ok = ok && draw_frames(&r, warnings, err);
     free(r.rgba);

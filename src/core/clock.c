@@ -18,6 +18,17 @@ int64_t gn_clock_process_cpu_ns(void) { return read_ns(CLOCK_PROCESS_CPUTIME_ID)
 
 int64_t gn_clock_thread_cpu_ns(void) { return read_ns(CLOCK_THREAD_CPUTIME_ID); }
 
+static const int64_t *fake_monotonic_ns, *fake_ahead_ns;
+
+int64_t gn_clock_day_ns(void) {
+    return fake_ahead_ns ? *fake_monotonic_ns + *fake_ahead_ns : read_ns(CLOCK_REALTIME);
+}
+
+void gn_clock_fake_day(const int64_t *monotonic_ns, const int64_t *ahead_ns) {
+    fake_monotonic_ns = monotonic_ns;
+    fake_ahead_ns = ahead_ns;
+}
+
 /* The kernel set the clock from one that runs on a battery. */
 static bool has_battery_clock(void) {
     glob_t found;

@@ -117,7 +117,8 @@ static const char *mode_text(const struct gn_show_screen *s, const struct gn_kio
 }
 
 /* NULL: the change has no caption. */
-static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_view *view) {
+static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                               const struct gn_info *info) {
     struct gn_show_text *t = &s->text;
     char title[120];
     switch (view->caption) {
@@ -136,6 +137,7 @@ static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_v
         const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
         return kind < GN_PROBLEM_COUNT ? gn_problem_words[kind].title : NULL;
     }
+    case GN_KIOSK_CAPTION_SUN: return info->sun;
     case GN_KIOSK_CAPTION_PAUSE: return view->stands ? "Paused" : NULL;
     default: return NULL;
     }
@@ -156,31 +158,41 @@ static void write_card(struct gn_show_screen *s, int64_t now_ns) {
     gn_captions_set(t->captions, GN_CAPTION_MARK, card[0] ? "!" : NULL, now_ns);
 }
 
+/* The information page, or the help page over it. */
+static void write_page(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                       struct gn_info *info, int64_t now_ns) {
+    struct gn_show_text *t = &s->text;
+    const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
+    if (!find_lasting(s->show, &info->problem, &info->shown))
+        info->problem = kind < GN_PROBLEM_COUNT ? &gn_problem_words[kind] : NULL;
+    if (t->help[0] || !view->info) {
+        t->page.made = false;
+        gn_captions_set(t->captions, GN_CAPTION_INFO, t->help, now_ns);
+    } else if (gn_info_page_step(&t->page, info, now_ns)) {
+        gn_captions_set(t->captions, GN_CAPTION_INFO, t->page.text, now_ns);
+    }
+}
+
+/* While something loads, that; else the moment of the sun, if it is asked for. */
+static void write_lasting(struct gn_show_screen *s, const struct gn_info *info, int64_t now_ns) {
+    struct gn_show_text *t = &s->text;
+    const bool loads = is_loading(s, now_ns), dates = s->stage.settings->sun.caption;
+    char text[200] = "", title[120];
+    if (loads && s->stage.display.ops->is_window) /* a visitor reads no names of files */
+        snprintf(text, sizeof text, "Loading %s ..", write_title(loading_path(s), title));
+    else if (!loads && dates && info->sun)
+        snprintf(text, sizeof text, "%s", info->sun);
+    t->bar = progress_percent(s, now_ns);
+    gn_captions_set(t->captions, GN_CAPTION_TEXT, text, now_ns);
+    gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
+}
+
 void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view *view,
                             int64_t now_ns) {
     struct gn_show_text *t = &s->text;
     struct gn_frame_opts *f = &s->stage.shown.opts;
     const bool on_side = f->output.turn_deg / 90 % 2;
-
-    /* captions of changes: a text is set only when it changes */
-    char loading[200] = "", title[120];
-    const bool loads = is_loading(s, now_ns);
-    if (loads && s->stage.display.ops->is_window) /* a visitor reads no names of files */
-        snprintf(loading, sizeof loading, "Loading %s ..", write_title(loading_path(s), title));
-    t->bar = progress_percent(s, now_ns);
-    gn_captions_set(t->captions, GN_CAPTION_TEXT, loading, now_ns);
-    write_card(s, now_ns);
-    write_labels(s, view, now_ns);
-    gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
-    if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
-        t->view = *view;
-        t->since_ns = s->kiosk.caption_begun_ns;
-        gn_captions_set(t->captions, GN_CAPTION_MODE, change_text(s, view),
-                        now_ns + s->rules.caption_ns -
-                            GN_CAPTION_MODE_NS); /* so that it ends at that time */
-    }
-
-    /* the information page, or the help page over it */
+    char title[120];
     struct gn_info info = {
         .scene = write_title(s->show->scenes.paths[view->scene], title),
         .mode = s->show->modes.titles[view->mode],
@@ -188,17 +200,20 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
         .screen = &s->stage.display.screen,
         .caps = gn_gl_caps(s->stage.gl),
         .uptime_ns = now_ns - s->show->counts.begun_ns,
-        .board = gn_parts_board(&s->show->parts),
     };
-    const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
-    if (!find_lasting(s->show, &info.problem, &info.shown))
-        info.problem = kind < GN_PROBLEM_COUNT ? &gn_problem_words[kind] : NULL;
-    if (t->help[0] || !view->info) {
-        t->page.made = false;
-        gn_captions_set(t->captions, GN_CAPTION_INFO, t->help, now_ns);
-    } else if (gn_info_page_step(&t->page, &info, now_ns)) {
-        gn_captions_set(t->captions, GN_CAPTION_INFO, t->page.text, now_ns);
+    gn_parts_add_info(&s->show->parts, &info);
+    write_lasting(s, &info, now_ns);
+    write_card(s, now_ns);
+    write_labels(s, view, now_ns);
+    /* captions of changes: a text is set only when it changes */
+    if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
+        t->view = *view;
+        t->since_ns = s->kiosk.caption_begun_ns;
+        gn_captions_set(t->captions, GN_CAPTION_MODE, change_text(s, view, &info),
+                        now_ns + s->rules.caption_ns -
+                            GN_CAPTION_MODE_NS); /* so that it ends at that time */
     }
+    write_page(s, view, &info, now_ns);
     f->cover.captions_later = true;
     f->cover.captions =
         gn_captions_run(t->captions, on_side ? f->output.height_px : f->output.width_px,

@@ -4,6 +4,7 @@
 
 #include "core/text.h"
 #include "kiosk/private.h"
+#include "stage/sun.h"
 
 void gn_show_report_error(struct gn_show *s, enum gn_problem kind, const char *text) {
     gn_problem_report(&s->problems, kind, text);
@@ -42,6 +43,12 @@ bool gn_show_check_action(const struct gn_show_screen *s, const struct gn_action
                           struct gn_err *err) {
     if (action->kind == GN_ACTION_PLAY && s->stage.scene)
         return gn_scene_find_clip(s->stage.scene, action->name, err) >= 0;
+    int64_t step_s;
+    if (action->kind == GN_ACTION_SUN)
+        return gn_sun_step_parse(action->name, &step_s, err) &&
+               (gn_stage_sun_moves(s->stage.settings) ||
+                gn_fail(err, "there is no sun whose time could be moved: [sun] has no latitude and "
+                             "longitude, or the clock is not set"));
     if (action->kind != GN_ACTION_MODE || gn_show_find_mode(&s->show->modes, action->name) >= 0)
         return true;
     char names[400] = "";
@@ -52,6 +59,9 @@ bool gn_show_check_action(const struct gn_show_screen *s, const struct gn_action
 
 void gn_show_act(struct gn_show_screen *s, const struct gn_action *action, int64_t time_ns) {
     const int clip = find_clip(s, action);
+    struct gn_err err = {0};
+    int64_t sun_s = 0;
+    if (action->kind == GN_ACTION_SUN) gn_sun_step_parse(action->name, &sun_s, &err);
     const struct gn_kiosk_event event = {
         .kind = GN_KIOSK_ACTION,
         .time_ns = time_ns,
@@ -60,11 +70,11 @@ void gn_show_act(struct gn_show_screen *s, const struct gn_action *action, int64
         .pressed = action->pressed,
         .mode = gn_show_find_mode(&s->show->modes, action->name),
         .clip = clip,
+        .sun_s = sun_s,
         .clip_ns = clip < 0 ? 0 : s->stage.scene->animation.clips[clip].duration_ns};
-    struct gn_err err = {0};
     if (!gn_show_check_action(s, action, &err))
         gn_problem_report(&s->show->problems, GN_PROBLEM_ACTION, err.text);
-    else if (action->kind == GN_ACTION_MODE || action->kind == GN_ACTION_PLAY)
+    else if (action->name)
         gn_problem_cure(&s->show->problems, GN_PROBLEM_ACTION);
     gn_show_send(s, event);
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "kiosk/info_page.h"
 #include "kiosk/part.h"
 #include "kiosk/sensor.h"
 
@@ -77,8 +78,8 @@ static void open_health(void *part) {
     gn_problem_report(host->problems, GN_PROBLEM_START, err.text);
 }
 
-static const char *health_summary(const void *part) {
-    return ((const struct health *)part)->summary;
+static void add_health_info(void *part, struct gn_info *info) {
+    info->board = ((const struct health *)part)->summary;
 }
 
 /* What is so now, by the last reading, and how often it began. */
@@ -117,7 +118,7 @@ const struct gn_part gn_part_health = {
     .name = "health",
     .size = sizeof(struct health),
     .open = open_health,
-    .board = health_summary,
+    .add_info = add_health_info,
     .status = health_status,
     GN_PART_METRICS(metrics),
     .close = close_health,

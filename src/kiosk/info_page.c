@@ -77,6 +77,7 @@ bool gn_info_page_step(struct gn_info_page *page, const struct gn_info *info, in
     if (info->scene) ADD_LINE(page, "Scene\t%.200s", info->scene);
     if (info->missing && info->missing[0]) ADD_LINE(page, "Shown without\t%.200s", info->missing);
     if (info->mode) ADD_LINE(page, "Mode\t%.60s", info->mode);
+    if (info->sun && info->sun[0]) ADD_LINE(page, "Sun\t%s", info->sun);
     if (screen && screen->what[0])
         ADD_LINE(page, "Screen\t%s", screen->what);
     else if (screen)

@@ -14,6 +14,7 @@ struct gn_info {                        /* a field that is NULL or zero gets no 
     const struct gn_problem_words *problem; /* NULL: it runs well */
     const char *shown;                      /* what is to be said of that; NULL or "": no more */
     const char *board;                      /* what it suffers from */
+    const char *sun;                        /* the moment for which it is shown, by two clocks */
     const char *root;                       /* a prefix of /sys, for tests; else "" or NULL */
 };
 struct gn_info_page { /* zeroed: no text yet */

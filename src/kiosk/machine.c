@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+static const int64_t SUN_AHEAD_MOST_S = 36525 * INT64_C(86400);
+
 static int modes_of(const struct gn_kiosk_rules *rules) {
     return rules->mode_count > 0 ? rules->mode_count : 1;
 }
@@ -176,6 +178,14 @@ static void act_info(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
     if (turns(s->info, e->turn)) s->info = !s->info;
 }
 
+static void act_sun(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
+                    const struct gn_kiosk_event *e) {
+    (void)rules;
+    const int64_t ahead_s = e->sun_s == 0 ? 0 : s->sun_ahead_s + e->sun_s;
+    if (llabs(ahead_s) <= SUN_AHEAD_MOST_S) s->sun_ahead_s = ahead_s;
+    set_caption(s, GN_KIOSK_CAPTION_SUN, e->time_ns);
+}
+
 static void apply_action(const struct gn_kiosk_rules *rules, struct gn_kiosk *s,
                          const struct gn_kiosk_event *e) {
     static act_fn *const acts[GN_ACTION_KIND_COUNT] = {
@@ -215,6 +225,7 @@ static void check_timeouts(const struct gn_kiosk_rules *rules, struct gn_kiosk *
     s->idled++;
     if (s->paused) toggle_pause(s, now_ns);
     s->info = false;
+    s->sun_ahead_s = 0;
     if (rules->idle == GN_IDLE_NEXT) {
         want_mode(rules, s, 1);
         return;

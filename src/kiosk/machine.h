@@ -37,6 +37,7 @@ enum gn_kiosk_caption {
     GN_KIOSK_CAPTION_SCENE,
     GN_KIOSK_CAPTION_CAMERA,
     GN_KIOSK_CAPTION_PAUSE,
+    GN_KIOSK_CAPTION_SUN,
     GN_KIOSK_CAPTION_NOTE,    /* a text of the viewer */
     GN_KIOSK_CAPTION_PROBLEM, /* the mode or scene cannot be shown */
 };
@@ -49,9 +50,10 @@ struct gn_kiosk {                        /* zeroed: the first mode and scene, no
     uint32_t bad_modes;                  /* bits 1 << mode: it failed */
     uint64_t bad_scenes;
     bool paused, blanked, info;
-    bool asleep, woken; /* outside of the hours; a press has lit the screen for a while */
-    int speed;          /* logarithm to base 2 of the scene's speed, at most GN_KIOSK_SPEED_MOST */
-    int64_t scene_ns;   /* the scene's time in the last frame */
+    bool asleep, woken;  /* outside of the hours; a press has lit the screen for a while */
+    int speed;           /* logarithm to base 2 of the scene's speed, at most GN_KIOSK_SPEED_MOST */
+    int64_t sun_ahead_s; /* of the time of [sun], by steps; at most 100 years */
+    int64_t scene_ns;    /* the scene's time in the last frame */
     int64_t clips_begun_ns;   /* the scene's time at which the clips of the shown mode began */
     int64_t seen_ns;          /* when that frame is on the screen; 0: no frame yet */
     int64_t fade_begun_ns;    /* monotonic; 0: no fade */
@@ -89,6 +91,7 @@ struct gn_kiosk_event {
     int mode;        /* also of GN_ACTION_MODE; -1: no such mode */
     int clip;        /* of GN_ACTION_PLAY; -1: no such clip */
     int64_t clip_ns; /* its length */
+    int64_t sun_s;   /* of GN_ACTION_SUN: its step; 0: back to none */
     int scene;       /* a number as gn_kiosk_scene() returns it */
     enum gn_kiosk_caption caption;
     uint32_t camera; /* as in gn_kiosk */

@@ -15,7 +15,9 @@
 #include "options/options.h"
 
 struct gn_gl;
+struct gn_info;
 struct gn_show;
+struct gn_stage;
 
 /* What a part gets of the kiosk. What is behind a pointer may change between two calls. */
 struct gn_part_host {
@@ -28,9 +30,10 @@ struct gn_part_host {
     struct gn_kiosk *kiosk; /* to be changed by gn_kiosk_step() alone */
     const struct gn_show_counts *counts;
     struct gn_problems *problems;
-    const bool *still;    /* the picture is not to move: rays are cast of it */
-    bool *changed;        /* to be set: the next picture differs */
-    struct gn_show *show; /* for parts that answer for the whole kiosk */
+    const bool *still;            /* the picture is not to move: rays are cast of it */
+    const struct gn_stage *stage; /* what is shown; its scene is NULL before the first one */
+    bool *changed;                /* to be set: the next picture differs */
+    struct gn_show *show;         /* for parts that answer for the whole kiosk */
     /* Begins a reload since files have changed; turned: by the turn of the content's link. False:
      * not now. */
     bool (*renew)(struct gn_show *show, bool turned);
@@ -44,7 +47,6 @@ struct gn_part_host {
     const char *root;   /* before /sys and /proc */
     int64_t reading_ns; /* between two readings of the board's health; 0: 10 s */
     const struct gn_television_opts *television; /* in place of the configured adapter */
-    const int64_t *day_ahead_ns; /* the sun's time of day before the loop's; NULL: the system's */
 };
 
 enum gn_part_load {
@@ -86,8 +88,8 @@ struct gn_part {
      * them. False and *err: ends the frame, and the kiosk with it. */
     bool (*pause)(void *part, uint64_t pieces, int64_t run_ns, struct gn_err *err);
 
-    /* Of the board, for the information page; "": nothing. */
-    const char *(*board)(const void *part);
+    /* Sets its lines of the information page, which stay valid until the next call. */
+    void (*add_info)(void *part, struct gn_info *info);
     /* Sets the values of its metrics, and returns what they are in; NULL: there are none now. */
     const void *(*status)(void *part);
     const struct gn_metric *metrics;
@@ -157,7 +159,7 @@ bool gn_parts_want_frame(const struct gn_parts *parts);
 void gn_parts_add_frame(struct gn_parts *parts, struct gn_frame_opts *opts);
 void gn_parts_drawn(struct gn_parts *parts, int64_t draw_ns);
 bool gn_parts_pause(struct gn_parts *parts, uint64_t pieces, int64_t run_ns, struct gn_err *err);
-const char *gn_parts_board(const struct gn_parts *parts); /* the first */
+void gn_parts_add_info(struct gn_parts *parts, struct gn_info *info);
 /* All metrics; brief: those of the reply to an action. */
 json_t *gn_parts_status(struct gn_parts *parts, bool brief);
 void gn_parts_end(struct gn_parts *parts);

@@ -108,10 +108,9 @@ bool gn_parts_pause(struct gn_parts *p, uint64_t pieces, int64_t run_ns, struct 
 
 /* ---- what they tell -------------------------------------------------------------------------- */
 
-const char *gn_parts_board(const struct gn_parts *p) {
+void gn_parts_add_info(struct gn_parts *p, struct gn_info *info) {
     for (int i = 0; i < GN_PART_COUNT; i++)
-        if (p->is_open[i] && p->rows[i]->board) return p->rows[i]->board(p->of[i]);
-    return "";
+        if (p->is_open[i] && p->rows[i]->add_info) p->rows[i]->add_info(p->of[i], info);
 }
 
 json_t *gn_parts_status(struct gn_parts *p, bool brief) {

@@ -121,6 +121,7 @@ static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *w
         .counts = &s->counts,
         .problems = &s->problems,
         .still = &s->screen.truth.on,
+        .stage = &s->screen.stage,
         .changed = &s->screen.changed,
         .show = s,
         .renew = gn_show_renew,

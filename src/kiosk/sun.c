@@ -1,16 +1,20 @@
-/* [sun]: its time is the clock's, or runs from a date. A frame is drawn when the shadow has moved
- * by about a pixel: the sun goes a twentieth of a degree in 12 seconds, which are counted from
- * whole minutes, so that at each of these moments the picture is that of `render --date`. */
+/* [sun]: its time is the clock's, or runs from a date; actions move it on and back. A frame is
+ * drawn when the shadow has moved by about a pixel (gn_stage_sun_step_s()). By the clock its steps
+ * are counted from whole minutes, so that at each of these moments the picture is that of `render
+ * --date`. */
 #include <math.h>
 #include <string.h>
-#include <time.h>
 
 #include "core/clock.h"
+#include "kiosk/info_page.h"
 #include "kiosk/part.h"
+#include "stage/stage.h"
 #include "stage/sun.h"
 
-#define STEP_S     12.0
 #define SHORTEST_S (1 / 60.0)
+/* the years of which core/sun.h says how far it errs */
+#define FIRST_S    (-2208988800.0)
+#define LAST_S     4133980799.0
 
 struct sun {
     const struct gn_part_host *host;
@@ -19,26 +23,22 @@ struct sun {
     int64_t begun_ns;             /* since when, if it is not the clock's, */
     double begun_utc_s;           /* and from which moment */
     double utc_s;                 /* of what is shown; NAN: there is no sun that moves */
+    double step_s;                /* of the clock, from frame to frame */
+    int64_t ahead_s;              /* by actions, of that */
+    char text[96];                /* the moment by the clock and by the sun */
     bool moves;                   /* with time; for the status */
     bool was_unset;               /* the clock */
 };
 
-static double clock_s(const struct sun *sun) {
-    struct timespec now;
-    if (sun->host->day_ahead_ns)
-        return (double)(gn_loop_now_ns(sun->host->loop) + *sun->host->day_ahead_ns) * 1e-9;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
-}
+static double clock_s(void) { return (double)gn_clock_day_ns() * 1e-9; }
 
 static bool is_of_clock(const struct gn_settings *o) {
     return (!o->sun.date || strcmp(o->sun.date, "now") == 0) && o->sun.speed == 1;
 }
 
 static void begin_run(struct sun *sun, const struct gn_settings *o, int64_t now_ns) {
-
     sun->begun_ns = now_ns;
-    sun->begun_utc_s = clock_s(sun);
+    sun->begun_utc_s = clock_s();
     if (o->sun.date && strcmp(o->sun.date, "now") != 0)
         gn_stage_sun_time(o, &sun->begun_utc_s, NULL);
 }
@@ -47,12 +47,12 @@ static void begin_run(struct sun *sun, const struct gn_settings *o, int64_t now_
 static double find_moment(struct sun *sun, const struct gn_settings *o, int64_t now_ns,
                           double *left_s) {
     if (is_of_clock(o)) {
-        const double now_s = clock_s(sun), shown_s = floor(now_s / STEP_S) * STEP_S;
-        *left_s = shown_s + STEP_S - now_s;
+        const double now_s = clock_s(), shown_s = floor(now_s / sun->step_s) * sun->step_s;
+        *left_s = shown_s + sun->step_s - now_s;
         return shown_s;
     }
     if (sun->of != o) begin_run(sun, o, now_ns);
-    *left_s = fmax(STEP_S / fabs(o->sun.speed), SHORTEST_S);
+    *left_s = fmax(sun->step_s / fabs(o->sun.speed), SHORTEST_S);
     return sun->begun_utc_s + o->sun.speed * (double)(now_ns - sun->begun_ns) * 1e-9;
 }
 
@@ -73,10 +73,17 @@ static void follow(void *user, int64_t now_ns) {
     double left_s = INFINITY, utc_s = NAN;
     sun->timer.due_ns = GN_LOOP_NEVER;
     look_for_clock(sun, o, now_ns);
-    if (gn_stage_sun_moves(o)) utc_s = find_moment(sun, o, now_ns, &left_s);
+    sun->step_s = sun->host->stage->scene
+                      ? gn_stage_sun_step_s(&sun->host->stage->pose, &sun->host->stage->shown.opts)
+                      : 12;
+    sun->ahead_s = sun->host->kiosk->sun_ahead_s;
+    if (gn_stage_sun_moves(o))
+        utc_s = fmin(fmax(find_moment(sun, o, now_ns, &left_s) + (double)sun->ahead_s, FIRST_S),
+                     LAST_S);
     sun->of = o;
     *sun->host->changed |= !isnan(utc_s) && utc_s != sun->utc_s;
     sun->utc_s = utc_s;
+    gn_stage_sun_print(o, utc_s, sun->text, sizeof sun->text);
     sun->moves = !isnan(utc_s);
     if (isfinite(left_s) && left_s < 1e6)
         sun->timer.due_ns = now_ns + (int64_t)ceil(left_s * (double)GN_NS_PER_S);
@@ -100,7 +107,8 @@ static void reopen_sun(void *part) {
 /* Another mode may have another date, and a frame of it the moment of its own. */
 static void step_sun(void *part) {
     struct sun *sun = part;
-    if (sun->of != *sun->host->settings) follow(part, gn_loop_now_ns(sun->host->loop));
+    if (sun->of != *sun->host->settings || sun->ahead_s != sun->host->kiosk->sun_ahead_s)
+        follow(part, gn_loop_now_ns(sun->host->loop));
 }
 
 static void close_sun(void *part) { gn_loop_remove_timer(&((struct sun *)part)->timer); }
@@ -116,8 +124,17 @@ static const void *sun_status(void *part) {
     return sun->moves ? sun : NULL;
 }
 
+static void add_sun_info(void *part, struct gn_info *info) {
+    step_sun(part);
+    info->sun = ((const struct sun *)part)->text;
+}
+
 static const struct gn_metric metrics[] = {
     GN_METRIC(struct sun, moves, "sun.moves", "", "the sun is that of a place and a time"),
+    GN_METRIC(struct sun, text, "sun.shown", "", "the moment shown, by the clock and by the sun",
+              .brief = true),
+    GN_METRIC(struct sun, ahead_s, "sun.ahead_s", "s", "how far actions have moved it"),
+    GN_METRIC(struct sun, step_s, "sun.step_s", "s", "between two places of the sun, at speed 1"),
 };
 
 const struct gn_part gn_part_sun = {
@@ -127,6 +144,7 @@ const struct gn_part gn_part_sun = {
     .reopen = reopen_sun,
     .step = step_sun,
     .add_frame = move_sun,
+    .add_info = add_sun_info,
     .status = sun_status,
     GN_PART_METRICS(metrics),
     .close = close_sun,

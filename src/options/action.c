@@ -1,8 +1,11 @@
 #include "options/action.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/text.h"
+
+#define MOST_S (36525 * INT64_C(86400))
 
 static const struct {
     const char *name, *argument;
@@ -27,6 +30,26 @@ bool gn_turn_parse(const char *text, enum gn_turn *out, struct gn_err *err) {
            gn_fail_usage(err, "\"%.40s\" is not on or off", text);
 }
 
+bool gn_sun_step_parse(const char *text, int64_t *out_s, struct gn_err *err) {
+    static const struct {
+        const char *name;
+        int64_t seconds;
+    } units[] = {{"m", 60}, {"h", 3600}, {"d", 86400}, {"w", 7 * 86400}};
+    char *end = NULL;
+    const bool has_sign = (text[0] == '+' || text[0] == '-') && strlen(text) < 12,
+               is_now = strcmp(text, "now") == 0;
+    const long count = has_sign && text[1] >= '0' && text[1] <= '9' ? strtol(text, &end, 10) : 0;
+    *out_s = 0;
+    for (size_t i = 0; i < sizeof units / sizeof units[0]; i++)
+        if (end && strcmp(end, units[i].name) == 0 && labs(count) <= MOST_S / units[i].seconds)
+            *out_s = count * units[i].seconds;
+    return *out_s != 0 || is_now ||
+           gn_fail_usage(err,
+                         "\"%.40s\" is no step of the sun; expected one such as +1h, -15m, +1d or "
+                         "+1w, or now",
+                         text);
+}
+
 bool gn_action_parse(const char *text, struct gn_action *out, struct gn_err *err) {
     const size_t word = strcspn(text, " \t");
     const char *name = text + word + strspn(text + word, " \t");
@@ -42,7 +65,8 @@ bool gn_action_parse(const char *text, struct gn_action *out, struct gn_err *err
         if (!takes_name && name[0])
             return gn_fail_usage(err, "\"%s\": %s takes no argument", text, rows[k].name);
         *out = (struct gn_action){.kind = (enum gn_action_kind)k, .name = takes_name ? name : NULL};
-        return true;
+        int64_t step_s;
+        return k != GN_ACTION_SUN || gn_sun_step_parse(name, &step_s, err);
     }
     char list[240];
     gn_action_list(list, sizeof list);

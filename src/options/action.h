@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "core/err.h"
 
@@ -22,7 +23,8 @@
     X(PLAY, play, "play", "CLIP", "play that clip of the animation once, then go on as before", "clip") \
     X(PAUSE, pause, "pause", "[on|off]", "stop the animation, or resume it", "state")              \
     X(BLANK, blank, "blank", "[on|off]", "turn the screen off, or on again", "state")              \
-    X(INFO, info, "info", "[on|off]", "show or hide the information page", "state")
+    X(INFO, info, "info", "[on|off]", "show or hide the information page", "state")                \
+    X(SUN, sun, "sun", "STEP", "move the time of the sun by a step, as +1h, -15m or +1d (24 hours), from then on; now: back to the time without steps", "step")
 /* clang-format on */
 
 enum gn_action_kind {
@@ -36,7 +38,7 @@ enum gn_turn { GN_TURN_OTHER, GN_TURN_ON, GN_TURN_OFF };
 struct gn_action { /* zeroed: none */
     enum gn_action_kind kind;
     enum gn_turn turn;
-    const char *name; /* of the mode or clip, else NULL; points into the parsed text */
+    const char *name; /* of the mode or clip, or the step; else NULL; points into the parsed text */
     bool pressed;     /* by a button or key, not by a command */
 };
 
@@ -50,6 +52,9 @@ const char *gn_action_name(enum gn_action_kind kind); /* "next-scene" */
 void gn_action_list(char *out, size_t size);          /* "none, next, prev, mode NAME, .." */
 /* "on", "off"; NULL: the other. */
 bool gn_turn_parse(const char *text, enum gn_turn *out, struct gn_err *err);
+/* The step of "sun": "+1h", with minutes m, hours h, days d of 24 hours, or weeks w, up to 100
+ * years; "now": 0. */
+bool gn_sun_step_parse(const char *text, int64_t *out_s, struct gn_err *err);
 /* "next", "pause on", "mode Soft": the name begins behind the first space and points into text,
  * which must live as long as the action. Else a usage error that lists the actions. */
 bool gn_action_parse(const char *text, struct gn_action *out, struct gn_err *err);

@@ -1,5 +1,6 @@
 #include "options/date.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -76,6 +77,19 @@ static void set_zone(const char *zone) {
     tzset();
 }
 
+/* What TZ was, to be given to restore_zone(). */
+static char *change_zone(const char *zone) {
+    const char *was = getenv("TZ");
+    char *before = was ? strdup(was) : NULL;
+    if (zone) set_zone(zone);
+    return before;
+}
+
+static void restore_zone(const char *zone, char *before) {
+    if (zone) set_zone(before);
+    free(before);
+}
+
 bool gn_date_utc(const struct gn_date *date, const char *zone, double *utc_s, struct gn_err *err) {
     struct tm tm = {.tm_year = date->year - 1900,
                     .tm_mon = date->month - 1,
@@ -92,14 +106,24 @@ bool gn_date_utc(const struct gn_date *date, const char *zone, double *utc_s, st
         *utc_s = (double)timegm(&tm) - date->offset_s;
         return true;
     }
-    const char *was = getenv("TZ");
-    char *before = was ? strdup(was) : NULL;
-    if (zone) set_zone(zone);
+    char *before = change_zone(zone);
     /* seconds of the day at once would miss the change of the clock within it */
     tm.tm_hour = date->second / 3600;
     tm.tm_sec = date->second % 3600;
     *utc_s = (double)mktime(&tm);
-    if (zone) set_zone(before);
-    free(before);
+    restore_zone(zone, before);
     return true;
+}
+
+void gn_date_print(double utc_s, const char *zone, char *out, size_t size) {
+    static const char *const months[] = {"January",   "February", "March",    "April",
+                                         "May",       "June",     "July",     "August",
+                                         "September", "October",  "November", "December"};
+    const time_t moment = (time_t)floor(utc_s);
+    struct tm tm = {0};
+    char *before = change_zone(zone);
+    localtime_r(&moment, &tm);
+    restore_zone(zone, before);
+    snprintf(out, size, "%d %s %d, %02d:%02d", tm.tm_mday, months[tm.tm_mon], tm.tm_year + 1900,
+             tm.tm_hour, tm.tm_min);
 }

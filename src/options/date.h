@@ -3,6 +3,7 @@
 #define GN_OPTIONS_DATE_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "core/err.h"
 
@@ -24,5 +25,9 @@ bool gn_date_parse(const char *text, struct gn_date *out);
  * False: there is no such zone. Changes and restores TZ: for one thread, while no other uses local
  * time. */
 bool gn_date_utc(const struct gn_date *date, const char *zone, double *utc_s, struct gn_err *err);
+
+/* "21 June 2026, 14:05" by the clock of that zone, which is as above; of a moment in 1900 to 2100.
+ * A zone that is not there counts as UTC. TZ as above. */
+void gn_date_print(double utc_s, const char *zone, char *out, size_t size);
 
 #endif

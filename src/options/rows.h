@@ -131,7 +131,7 @@ GN_OPTION(.name = "light-on", .key = "on", .kind = GN_KIND_FLAG, .fallback = "ye
 GN_OPTION(.name = "sun", .kind = GN_KIND_PLACE, .min = -180, .max = 180, .value = "LAT,LON", .fallback = "auto",
           .help = "the sun as it stands at this place, in degrees north and east: a light of the scene gets its direction, size, colour and strength", .commands = DRAW | MODEL, .offset = FIELD(sun.place_deg))
 GN_OPTION(.name = "sun-latitude", .key = "latitude", .section = "sun", .kind = GN_KIND_EV, .min = -90, .max = 90, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
-          .help = "latitude of the place, north positive", .change = GN_CHANGE_LIVE, .offset = FIELD(sun.latitude_deg))
+          .help = "latitude of the place, north positive; the sundial of the default scene is made for 50", .change = GN_CHANGE_LIVE, .offset = FIELD(sun.latitude_deg))
 GN_OPTION(.name = "sun-longitude", .key = "longitude", .section = "sun", .kind = GN_KIND_EV, .min = -180, .max = 180, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "longitude of the place, east positive", .change = GN_CHANGE_LIVE, .offset = FIELD(sun.longitude_deg))
 GN_OPTION(.name = "date", .section = "sun", .kind = GN_KIND_DATE, .value = "DATE", .fallback = "now",
@@ -143,13 +143,15 @@ GN_OPTION(.name = "to", .kind = GN_KIND_DATE, .value = "DATE",
 GN_OPTION(.name = "sun-time-zone", .key = "time_zone", .section = "sun", .kind = GN_KIND_TEXT, .value = "ZONE",
           .help = "time zone of date, as Europe/Berlin; without it the system's", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.time_zone))
 GN_OPTION(.name = "sun-speed", .key = "speed", .section = "sun", .kind = GN_KIND_NUMBER, .min = -1e6, .max = 1e6, .value = "F", .fallback = "1",
-          .help = "how fast the sun goes on from date: 1 as the clock, 3600 an hour in a second, 0 not at all", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.speed))
+          .help = "how fast the sun goes on from date: 1 as the clock, 3600 an hour in a second, 0 not at all; also from frame to frame of render --frames", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(sun.speed))
 GN_OPTION(.name = "sun-azimuth", .key = "azimuth", .section = "sun", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "where the sun stands, from north over east, in place of what place and date make; without a place auto is 180, south", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.azimuth_deg))
 GN_OPTION(.name = "sun-altitude", .key = "altitude", .section = "sun", .kind = GN_KIND_EV, .min = -90, .max = 90, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "how high the sun stands over the horizon; without a place auto is 45", .commands = DRAW | MODEL, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.altitude_deg))
 GN_OPTION(.name = "sun-turbidity", .key = "turbidity", .section = "sun", .kind = GN_KIND_NUMBER, .min = 2, .max = 10, .value = "T", .fallback = "3",
           .help = "haze of the air, by which a low sun is weak and red: 2 is very clear, 3 clear, 6 hazy", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.turbidity))
+GN_OPTION(.name = "sun-caption", .key = "caption", .section = "sun", .kind = GN_KIND_FLAG,
+          .help = "write the date and the time under the picture: by the clock of time_zone, and by the sun at the place, as a sundial has it", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(sun.caption))
 /* the camera's place in place of its own; orbits are as in model-viewer */
 GN_OPTION(.name = "camera-theta", .key = "theta", .section = "camera", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "side from which the camera looks at its target: 0 from the front (+Z), 90 from +X; auto: as the camera stands", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.theta_deg))

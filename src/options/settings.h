@@ -157,6 +157,7 @@ struct gn_sun_settings {
     double speed;
     double azimuth_deg, altitude_deg; /* NAN: by place and date */
     double turbidity;
+    bool caption; /* of the moment */
 };
 struct gn_display_settings {
     const char *backend, *card, *render_node, *connector;

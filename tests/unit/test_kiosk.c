@@ -218,6 +218,36 @@ static void idleness_goes_to_the_first_or_to_the_next(void **state) {
     assert_int_equal(s.wanted.mode, 2);
 }
 
+static void steps_of_the_sun_add_up_until_now_or_idleness(void **state) {
+    (void)state;
+    const int64_t hundred_years_s = 36525 * INT64_C(86400);
+    const struct {
+        int64_t step_s, ahead_s;
+    } rows[] = {{3600, 3600},
+                {-900, 2700},
+                {0, 0},
+                {hundred_years_s, hundred_years_s},
+                {3600, hundred_years_s}, /* no farther */
+                {-86400, hundred_years_s - 86400}};
+    for (int idle = GN_IDLE_NONE; idle <= GN_IDLE_NEXT; idle++) {
+        struct gn_kiosk_rules r = three;
+        r.idle = (enum gn_idle)idle;
+        r.idle_after_ns = 60 * S;
+        struct gn_kiosk s = on(&r, (struct gn_kiosk){0}, GN_KIOSK_TICK, S);
+        for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+            const struct gn_kiosk_event event = {.kind = GN_KIOSK_ACTION,
+                                                 .time_ns = 2 * S,
+                                                 .action = GN_ACTION_SUN,
+                                                 .sun_s = rows[i].step_s};
+            s = gn_kiosk_step(&r, &s, &event);
+            assert_true(s.sun_ahead_s == rows[i].ahead_s);
+            assert_int_equal(gn_kiosk_view(&r, &s, 3 * S).caption, GN_KIOSK_CAPTION_SUN);
+        }
+        s = on(&r, s, GN_KIOSK_TICK, 70 * S);
+        assert_true((s.sun_ahead_s == 0) == (idle != GN_IDLE_NONE));
+    }
+}
+
 static void idleness_closes_the_info_page(void **state) {
     (void)state;
     static const enum gn_idle ways[] = {GN_IDLE_FIRST, GN_IDLE_NEXT};
@@ -343,6 +373,7 @@ int main(void) {
         cmocka_unit_test(a_caption_begins_anew_with_what_it_names),
         cmocka_unit_test(captions_and_fades_end),
         cmocka_unit_test(idleness_goes_to_the_first_or_to_the_next),
+        cmocka_unit_test(steps_of_the_sun_add_up_until_now_or_idleness),
         cmocka_unit_test(idleness_closes_the_info_page),
         cmocka_unit_test(no_press_is_lost_and_none_counts_twice),
         cmocka_unit_test(the_default_buttons_do_what_the_design_says),
