@@ -109,8 +109,9 @@ void gn_gl_give(struct gn_gl *gl, const struct gn_plan *plan, uint32_t slot, con
 /* A long frame is drawn in pieces, each of about a tenth of a second at most, and so are the first
  * ones of a scene, until it is known that they are short. pause() is called while the GPU draws a
  * piece, every few milliseconds, and after it, with how many were drawn so far, of all frames, and
- * for how long this run goes on. It may call nothing that draws. False ends gn_gl_run(), which
- * fails with its *err. NULL, as at first: frames are drawn whole. */
+ * for how long this run goes on; also after each program that gn_gl_prepare() makes, and its first
+ * draw, as if those were pieces. It may call nothing that draws. False ends gn_gl_run() or
+ * gn_gl_prepare(), which fail with its *err. NULL, as at first: frames are drawn whole. */
 typedef bool gn_gl_pause(void *user, uint64_t pieces, int64_t run_ns, struct gn_err *err);
 void gn_gl_set_pause(struct gn_gl *gl, gn_gl_pause *pause, void *user);
 /* The last frame took long until it was presented: if it was drawn whole, the next is not. */

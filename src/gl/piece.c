@@ -72,6 +72,13 @@ static bool end_piece(struct gn_gl *gl, int pace, struct gn_err *err) {
     return goes_on;
 }
 
+bool gn_gl_pause_after(struct gn_gl *gl, int64_t begun_ns, struct gn_err *err) {
+    struct gn_gl_pieces *p = &gl->pieces;
+    const int64_t now_ns = p->pause ? gn_clock_monotonic_ns() : 0;
+    return !p->pause || now_ns - begun_ns < POLL_NS ||
+           p->pause(p->user, ++p->done, now_ns - p->run_ns, err);
+}
+
 bool gn_gl_draw_in_pieces(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                           uint64_t constants_hash, struct gn_err *err) {
     struct gn_gl_pieces *p = &gl->pieces;

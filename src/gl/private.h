@@ -91,6 +91,10 @@ void gn_gl_pieces_begin(struct gn_gl *gl, const struct gn_scene *scene); /* a fr
 bool gn_gl_draw_in_pieces(struct gn_gl *gl, const struct gn_pass *pass, const struct gn_draw *d,
                           uint64_t constants_hash, struct gn_err *err);
 
+/* A pause, if what began then took long: a program, or its first draw, where drivers compile. It
+ * counts as a piece. False: it ended the frame. */
+bool gn_gl_pause_after(struct gn_gl *gl, int64_t begun_ns, struct gn_err *err);
+
 /* ---- running and reading (run.c, read.c) ---- */
 
 /* Draws one triangle on one pixel with a program, in each pass of the plan that uses it and with

@@ -39,10 +39,12 @@ bool gn_gl_prepare(struct gn_gl *gl, const struct gn_plan *plan, struct gn_err *
                        "this GPU fails at a capability it claims; try again, or use --without");
     bool ok = true;
     grow_plan_programs(gl, plan->program_count);
+    gl->pieces.run_ns = gl->pieces.pause ? gn_clock_monotonic_ns() : 0;
     for (uint32_t i = 0; ok && i < plan->program_count; i++) {
         const struct gn_program_key *key = &plan->programs[i];
-        ok = (gn_gl_program_find(gl, key) || !is_stopped(gl, err)) &&
-             gn_gl_program_prepare(gl, key, err);
+        const bool is_made = gn_gl_program_find(gl, key) != NULL;
+        ok = (is_made || !is_stopped(gl, err)) && gn_gl_program_prepare(gl, key, err) &&
+             (is_made || gn_gl_pause_after(gl, 0, err));
     }
     ok = ok && gn_gl_targets_ensure(gl, plan, err) && gn_gl_atlas_ensure(gl, plan->atlas, err) &&
          gn_gl_environment_ensure(gl, &plan->environment, err) &&
@@ -145,8 +147,10 @@ static bool draw_pass(struct gn_gl *gl, const struct gn_plan *plan, const struct
     if (by_points && !draw_points(gl, plan, pass, points, err)) return false;
     for (uint32_t i = 0; i < pass->draw_count && !by_points; i++) {
         if (first_time && is_stopped(gl, err)) return false;
+        const int64_t begun_ns = first_time ? gn_clock_monotonic_ns() : 0;
         if (!gn_gl_draw_in_pieces(gl, pass, &plan->draws[pass->first_draw + i], hash, err))
             return false;
+        if (first_time && !gn_gl_pause_after(gl, begun_ns, err)) return false;
     }
     /* The first tile may have cleared the depth of later ones, which is needed until those are
      * drawn. */

@@ -108,10 +108,9 @@ rm -r "$out/initrd.d"
 sockets=$(mktemp -d)
 trap 'rm -rf "$sockets"' EXIT
 
-# The machine's clock is its own: four nanoseconds an instruction, so that a second in it is one however busy the host is. Such a
-# machine has one processor. One with systemd has a file system of its own to install in, and the time of the host.
+# The machine's clock is its own: four nanoseconds an instruction, so that a second in it is one however busy the host is: nor do
+# the watchdogs of a service bite earlier there. Such a machine has one processor.
 clock=(-smp 1 -accel "tcg,thread=single" -icount shift=2)
-[ -z "$systemd" ] || clock=(-smp 2 -accel "tcg,thread=multi")
 
 # shellcheck disable=SC2054
 machine=(-nodefaults -no-user-config -no-reboot -m 2048 "${clock[@]}" -display none)

@@ -133,6 +133,35 @@ static void a_short_frame_is_whole(void **state) {
     gn_show_close(show);
 }
 
+/* Each program that a frame lacks is a piece: at a start all are lacking. */
+static void making_programs_is_in_pieces(void **state) {
+    (void)state;
+    struct gn_show *show =
+        help_show((const char *const[]){"--size", "64x64", "build/selftest/box.glb", NULL});
+    struct gn_stage *stage = &show->screen.stage;
+    struct gn_err err = {0};
+    help_show_frames(show, 1);
+    struct gn_gl *gl = stage->gl;
+    for (int k = 0; k < GN_GL_PACES; k++) gl->pieces.most_px[k] = 1e9;
+    pauses = (struct pauses){0};
+    gn_gl_set_pause(gl, count_pause, &pauses);
+    for (int aov = GN_AOV_DISTANCE; aov <= GN_AOV_NORMAL; aov++) {
+        const uint64_t made = gl->programs.made, calls = pauses.calls;
+        stage->shown.opts.debug.aov = (enum gn_aov)aov;
+        assert_non_null(gn_view_draw(&stage->shown, stage, 0, show->warnings, &err));
+        assert_true(gl->programs.made > made);
+        assert_true(pauses.calls - calls >= gl->programs.made - made);
+    }
+    /* ended, and made again */
+    pauses.most = pauses.pieces + 1;
+    stage->shown.opts.debug.aov = GN_AOV_VISIBILITY;
+    assert_null(gn_view_draw(&stage->shown, stage, 0, show->warnings, &err));
+    assert_string_equal(err.text, "given up");
+    pauses.most = 0;
+    assert_non_null(gn_view_draw(&stage->shown, stage, 0, show->warnings, &err));
+    gn_show_close(show);
+}
+
 /* ---- the kiosk ------------------------------------------------------------------------------- */
 
 static int count_replies(int fd) {
@@ -227,6 +256,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pieces_make_the_same_picture),
         cmocka_unit_test(a_short_frame_is_whole),
+        cmocka_unit_test(making_programs_is_in_pieces),
         cmocka_unit_test(requests_are_answered_while_a_frame_is_drawn),
         cmocka_unit_test(a_pause_leaves_the_frame_alone),
     };
