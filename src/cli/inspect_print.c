@@ -124,6 +124,22 @@ static void print_sun(const struct gn_inspection *in, FILE *to) {
                        light < 0 ? "" : in->scene->lights[light].name);
 }
 
+static void print_clips(const struct gn_scene *s, FILE *to) {
+    if (s->animation.clip_count) fprintf(to, "\nClips\n");
+    for (uint32_t i = 0; i < s->animation.clip_count; i++) {
+        gn_text_print_line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
+                           (double)s->animation.clips[i].duration_ns * 1e-9,
+                           s->animation.clips[i].channel_count,
+                           s->animation.clips[i].channel_count == 1 ? "" : "s",
+                           s->animation.clips[i].on_by_default ? "on" : "off");
+        const struct gn_channel *channel =
+            &s->animation.channels[s->animation.clips[i].first_channel];
+        for (uint32_t k = 0; k < s->animation.clips[i].channel_count; k++, channel++)
+            if (channel->path == GN_ANIM_RECORD)
+                gn_text_print_line(to, "    moves %s", channel->pointer);
+    }
+}
+
 static void print_lists(const struct gn_inspection *in, FILE *to) {
     const struct gn_scene *s = in->scene;
     const struct counts n = count_parts(s);
@@ -169,19 +185,7 @@ static void print_lists(const struct gn_inspection *in, FILE *to) {
             drawn,
             is_made(s->added.camera, i, s->camera_count) ? " (made: the file has none)" : "");
     }
-    if (s->animation.clip_count) fprintf(to, "\nClips\n");
-    for (uint32_t i = 0; i < s->animation.clip_count; i++) {
-        gn_text_print_line(to, "%-3u %s: %.3f s, %u channel%s, %s", i, s->animation.clips[i].name,
-                           (double)s->animation.clips[i].duration_ns * 1e-9,
-                           s->animation.clips[i].channel_count,
-                           s->animation.clips[i].channel_count == 1 ? "" : "s",
-                           s->animation.clips[i].on_by_default ? "on" : "off");
-        const struct gn_channel *channel =
-            &s->animation.channels[s->animation.clips[i].first_channel];
-        for (uint32_t k = 0; k < s->animation.clips[i].channel_count; k++, channel++)
-            if (channel->path == GN_ANIM_RECORD)
-                gn_text_print_line(to, "    moves %s", channel->pointer);
-    }
+    print_clips(s, to);
     if (s->variants.count) fprintf(to, "\nVariants of materials\n");
     for (uint32_t i = 0; i < s->variants.count; i++)
         gn_text_print_line(to, "%-3u %s", i, s->variants.names[i]);

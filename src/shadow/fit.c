@@ -91,18 +91,12 @@ static void set_bias(struct gn_shadow_view *view) {
     lookup->slope_max = f->slope_max;
 }
 
-bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
-                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
-                   struct gn_shadow_view *view) {
-    assert(opts->technique != GN_TECHNIQUE_NONE);
+/* What does not depend on casters and receivers. */
+static void begin_view(const struct gn_shadow_opts *opts, uint32_t light, enum gn_light_type type,
+                       struct gn_shadow_view *view) {
     const struct gn_technique_row *row = &gn_techniques[opts->technique];
-    const struct gn_light *l = &pose->lights[light];
-
-    /* what does not depend on casters and receivers */
-    const enum gn_light_type type = l->type;
     const int faces = opts->light.faces;
     uint32_t size_px[2];
-    vec3 direction;
     gn_shadow_map_size(type, opts->technique, opts->map_px, size_px);
     *view =
         (struct gn_shadow_view){.light = light,
@@ -129,6 +123,17 @@ bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_e
     if (row->filter == GN_FILTER_TABLE) view->lookup.reach_px = GN_TABLE_REACH_PX;
     if (opts->cascades > 1 && !view->perspective && !row->on_plane)
         gn_cascades_lay(opts->cascades, view);
+}
+
+bool gn_shadow_fit(const struct gn_pose *pose, uint32_t light, const struct gn_eye *eye,
+                   const struct gn_shadow_opts *opts, struct gn_shadow_memory *memory,
+                   struct gn_shadow_view *view) {
+    assert(opts->technique != GN_TECHNIQUE_NONE);
+    const struct gn_technique_row *row = &gn_techniques[opts->technique];
+    const struct gn_light *l = &pose->lights[light];
+
+    vec3 direction;
+    begin_view(opts, light, l->type, view);
     gn_pose_light(pose, light, view->light_ws, direction);
     glm_vec3_negate_to(direction, view->to_light_ws);
 
