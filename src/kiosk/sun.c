@@ -12,6 +12,7 @@
 #include "stage/sun.h"
 
 #define SHORTEST_S (1 / 60.0)
+#define JUMP_S     12.0 /* until a jump of the clock is seen */
 /* the years of which core/sun.h says how far it errs */
 #define FIRST_S    (-2208988800.0)
 #define LAST_S     4133980799.0
@@ -46,14 +47,20 @@ static void begin_run(struct sun *sun, const struct gn_settings *o, int64_t now_
 /* The moment that is to be shown; *left_s: until another one is. */
 static double find_moment(struct sun *sun, const struct gn_settings *o, int64_t now_ns,
                           double *left_s) {
-    if (is_of_clock(o)) {
-        const double now_s = clock_s(), shown_s = floor(now_s / sun->step_s) * sun->step_s;
-        *left_s = shown_s + sun->step_s - now_s;
-        return shown_s;
-    }
-    if (sun->of != o) begin_run(sun, o, now_ns);
+    const bool of_clock = is_of_clock(o);
+    if (!of_clock && sun->of != o) begin_run(sun, o, now_ns);
+    const double now_s =
+        of_clock ? clock_s()
+                 : sun->begun_utc_s + o->sun.speed * (double)(now_ns - sun->begun_ns) * 1e-9;
+    const double altitude_deg = gn_stage_sun_view(o, now_s + (double)sun->ahead_s).altitude_deg;
+    const struct gn_stage *stage = sun->host->stage;
+    if (stage->scene)
+        sun->step_s = gn_stage_sun_step_s(&stage->pose, &stage->shown.opts, altitude_deg);
     *left_s = fmax(sun->step_s / fabs(o->sun.speed), SHORTEST_S);
-    return sun->begun_utc_s + o->sun.speed * (double)(now_ns - sun->begun_ns) * 1e-9;
+    if (!of_clock) return now_s;
+    const double shown_s = floor(now_s / sun->step_s) * sun->step_s;
+    *left_s = fmin(shown_s + sun->step_s - now_s, JUMP_S);
+    return shown_s;
 }
 
 /* A clock that is set at last brings the sun, whose looks are built anew. */
@@ -73,9 +80,6 @@ static void follow(void *user, int64_t now_ns) {
     double left_s = INFINITY, utc_s = NAN;
     sun->timer.due_ns = GN_LOOP_NEVER;
     look_for_clock(sun, o, now_ns);
-    sun->step_s = sun->host->stage->scene
-                      ? gn_stage_sun_step_s(&sun->host->stage->pose, &sun->host->stage->shown.opts)
-                      : 12;
     sun->ahead_s = sun->host->kiosk->sun_ahead_s;
     if (gn_stage_sun_moves(o))
         utc_s = fmin(fmax(find_moment(sun, o, now_ns, &left_s) + (double)sun->ahead_s, FIRST_S),
@@ -93,6 +97,7 @@ static void open_sun(void *part) {
     struct sun *sun = part;
     sun->timer = (struct gn_timer){.due_ns = GN_LOOP_NEVER, .call = follow, .user = part};
     sun->utc_s = NAN;
+    sun->step_s = 12; /* until there is a scene */
     gn_loop_add_timer(sun->host->loop, &sun->timer);
     follow(part, gn_loop_now_ns(sun->host->loop));
 }

@@ -147,11 +147,11 @@ static double pixel_m(const struct gn_pose *pose, const struct gn_frame_opts *op
     return 2 * (double)(half_m / height);
 }
 
-double gn_stage_sun_step_s(const struct gn_pose *pose, const struct gn_frame_opts *opts) {
+double gn_stage_sun_step_s(const struct gn_pose *pose, const struct gn_frame_opts *opts,
+                           double altitude_deg) {
     static const int parts[] = {60, 30, 20, 15, 12, 10, 6, 5, 4, 3, 2};
     const double turn = 15.04 * M_PI / 180 / 3600;
-    if (!pose->aimed) return 12;
-    const double altitude = asin(fmin(fmax((double)-pose->aim_ws[1], -1), 1));
+    const double altitude = altitude_deg * M_PI / 180;
     const double height_m = (double)(pose->box_ws.max[1] - pose->box_ws.min[1]);
     const double across_m =
         (double)glm_vec3_distance((float *)pose->box_ws.min, (float *)pose->box_ws.max);

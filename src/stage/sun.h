@@ -38,8 +38,9 @@ void gn_stage_sun_print(const struct gn_settings *settings, double utc_s, char *
  * second. L is that of the scene's highest point, height / sin(altitude), and at most the diagonal
  * of its box; a pixel is 2 tan(fov / 2) * distance / height_px there. The result is the longest
  * part of a minute (60 / n, whole seconds) that is no longer, from 1 to 60 s, and to 12 s while the
- * sun is lower than 6 degrees, for the light changes fast then. 12 where no light is the sun. */
-double gn_stage_sun_step_s(const struct gn_pose *pose, const struct gn_frame_opts *opts);
+ * sun is lower than 6 degrees, for the light changes fast then. */
+double gn_stage_sun_step_s(const struct gn_pose *pose, const struct gn_frame_opts *opts,
+                           double altitude_deg);
 /* Before gn_stage_set_lights(), after the environment: the moment, the size of the sun, and an
  * exposure of 0 unless one is given, for the sun's unit is the screen's. Does nothing without
  * [sun].
