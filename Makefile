@@ -18,7 +18,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: all no-import tests programs completion dist deb release repository image run check accept full check-deb check-release check-image check-gpu check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet screens \
+.PHONY: all no-import tests programs completion dist deb release repository image run check accept full check-deb check-release check-image check-gpu check-gpus check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet sun-sheet screens \
         lessons book readme board-table options-page deps syntax lint lint-brief lint-changed format man install uninstall help clean FORCE
 
 #: make            build/release/gnomon, gnomon-import, the default scene and assets/bench
@@ -54,6 +54,7 @@ BARE    := help clean deps format uninstall dist # goals that need neither a com
 #: make contact-sheet
 #:                 the modes of the default scene, gone through by keys, as one picture
 #: make screens    the kiosk in every state at six sizes, into build/screens.png and build/screens
+#: make sun-sheet  the shadow at nine hours of four dates as one picture; SCENE=FILE, SUN=LAT,LON, ZONE=, DATES=, HOURS=
 #: make lessons    faults of shadows beside their cures, into build/lessons/index.html
 #: make book       eight scenes, each by its configuration in assets/book, into build/book.png
 #: make deps       install the packages that building, running and testing need (apt);
@@ -85,7 +86,7 @@ dist:
 # goals that tests/table is for, and the sets of packages (board/deps.sh) that goals install first, beside `build` and `run`
 MACHINES    := check-board check-arm64 check-gpiod2 check-service accept full
 TABLED      := $(filter-out check-deb check-release check-image check-gpu check-gpus check-modelviewer check-cycles check-tangents,$(filter check check-% accept full,$(GOALS)))
-IN_test     := $(TABLED) check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet screens book readme
+IN_test     := $(TABLED) check-modelviewer check-cycles check-tangents truth swim models benchmark benchmark-scenes pictures gallery contact-sheet sun-sheet screens book readme
 IN_board    := $(MACHINES)
 IN_board-arm64 := $(MACHINES)
 IN_gpus     := check-gpus accept full
@@ -396,6 +397,8 @@ screens: $(B)/tests/test_screens $(B)/tests/tool_sheet $(SCENES)
 	$(B)/tests/tool_sheet $(O)/screens.png 6 $(O)/screens/*.png
 contact-sheet: $(B)/tests/tool_sheet $(BIN)
 	BUILD=$(B) GNOMON=$(BIN) tests/image/accept_terminal.sh $(O)/contact-sheet.png
+sun-sheet: $(B)/tests/tool_sheet $(BIN)
+	BUILD=$(B) GNOMON=$(BIN) $(foreach v,SCENE SUN ZONE DATES HOURS SIZE,$(if $($v),$v='$($v)')) tests/image/sun_sheet.sh $(O)/sun-sheet.png
 truth: $(B)/tests/tool_truth $(BIN) $(O)/host/make_truth
 	$< $(if $(CSV),--csv $(CSV))
 swim: $(B)/tests/tool_swim $(BIN)

@@ -1,6 +1,7 @@
 /* Actions as events of the machine. */
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "core/text.h"
 #include "kiosk/private.h"
@@ -13,6 +14,13 @@ void gn_show_report_error(struct gn_show *s, enum gn_problem kind, const char *t
     s->config.options->config_error = s->config.error;
     s->config.kind = kind;
     s->config.shown[0] = '\0';
+    s->screen.changed = true;
+}
+
+void gn_show_cure_error(struct gn_show *s, enum gn_problem kind) {
+    const char *shown = s->config.options->config_error;
+    if (shown && strcmp(shown, s->problems.of[kind]) == 0) s->config.options->config_error = NULL;
+    gn_problem_cure(&s->problems, kind);
     s->screen.changed = true;
 }
 

@@ -39,6 +39,7 @@ struct gn_part_host {
     bool (*renew)(struct gn_show *show, bool turned);
     /* Reports a problem that the caption says, too. */
     void (*report_error)(struct gn_show *show, enum gn_problem kind, const char *text);
+    void (*cure_error)(struct gn_show *show, enum gn_problem kind);
     /* Files of scenes: of the one that is shown, of the one that the options want, and of one that
      * could not be shown; NULL and "" are none. */
     void (*scene_files)(const struct gn_show *show, const char *out_paths[3]);

@@ -141,5 +141,7 @@ __attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show_screen *s
                                                         const char *format, ...);
 /* One that lasts: the caption stays until a reload, and the status has it as config.error. */
 void gn_show_report_error(struct gn_show *show, enum gn_problem kind, const char *text);
+/* Its end, in the caption and in the status, too. */
+void gn_show_cure_error(struct gn_show *show, enum gn_problem kind);
 
 #endif

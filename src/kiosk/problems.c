@@ -47,6 +47,8 @@ const struct gn_problem_words gn_problem_words[GN_PROBLEM_COUNT] = {
     [GN_PROBLEM_WATCH] = {"Changes of files are not noticed",
                           "After a change use \"gnomon ctl reload\"."},
     [GN_PROBLEM_SHADERS] = {"The changed shaders cannot be used", STATUS},
+    [GN_PROBLEM_CLOCK] = {"The clock is not set",
+                          "Connect a network, or set the time; then the sun is that of now."},
     [GN_PROBLEM_STATE] = {"What is shown is not remembered",
                           "Correct \"state\" in [kiosk], or make room on its drive."},
     [GN_PROBLEM_TELEVISION] = {"The television does not answer",

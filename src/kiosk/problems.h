@@ -16,6 +16,7 @@ enum gn_problem {
     GN_PROBLEM_SCENE,      /* likewise */
     GN_PROBLEM_WATCH,      /* changes of files are not noticed */
     GN_PROBLEM_SHADERS,    /* of --shaders; until they can be used */
+    GN_PROBLEM_CLOCK,      /* [sun] needs one that is set; until it is */
     GN_PROBLEM_STATE,      /* until it is saved */
     GN_PROBLEM_TELEVISION, /* until it answers */
     GN_PROBLEM_RANGE,      /* until a connector has it, or none is asked for */

@@ -126,6 +126,7 @@ static struct gn_show *create(struct gn_show_place *place, struct gn_warnings *w
         .show = s,
         .renew = gn_show_renew,
         .report_error = gn_show_report_error,
+        .cure_error = gn_show_cure_error,
         .scene_files = gn_show_scene_files,
     };
     gn_parts_create(&s->parts);

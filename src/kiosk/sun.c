@@ -67,9 +67,12 @@ static double find_moment(struct sun *sun, const struct gn_settings *o, int64_t 
 static void look_for_clock(struct sun *sun, const struct gn_settings *o, int64_t now_ns) {
     const bool unset = gn_stage_sun_lacks_clock(o);
     if (unset && !sun->was_unset)
-        sun->host->report_error(sun->host->show, GN_PROBLEM_CONFIG,
+        sun->host->report_error(sun->host->show, GN_PROBLEM_CLOCK,
                                 "sun: the clock is not set; until it is, lights are the file's");
-    if (!unset && sun->was_unset) sun->host->renew(sun->host->show, false);
+    if (!unset && sun->was_unset) {
+        sun->host->cure_error(sun->host->show, GN_PROBLEM_CLOCK);
+        sun->host->renew(sun->host->show, false);
+    }
     sun->was_unset = unset;
     if (unset) sun->timer.due_ns = now_ns + 10 * GN_NS_PER_S;
 }

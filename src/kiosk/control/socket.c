@@ -28,11 +28,7 @@ static void report_closed(const struct gn_part_host *h, bool named, const char *
 }
 
 static void report_opened(const struct gn_part_host *h) {
-    const char *shown = (*h->options)->config_error;
-    if (shown && strcmp(shown, h->problems->of[GN_PROBLEM_CONTROL]) == 0)
-        (*h->options)->config_error = NULL;
-    gn_problem_cure(h->problems, GN_PROBLEM_CONTROL);
-    *h->changed = true;
+    h->cure_error(h->show, GN_PROBLEM_CONTROL);
 }
 
 static void answer(void *part, const struct gn_request *request, json_t *reply) {
