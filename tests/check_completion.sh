@@ -33,7 +33,7 @@ offers 'pcss' render --shadow = pcs
 offers '0 90 180 270' show --rotate ''
 offers 'lesson' les
 offers 'help' hel
-offers 'scene screenshot set status' ctl s
+offers 'scene screenshot set status sun' ctl s
 offers 'shadow shadow-strength shadow-specular' ctl set shadow
 offers 'smsm' ctl set shadow sm
 offers '' ctl status ''
