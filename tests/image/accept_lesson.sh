@@ -37,6 +37,11 @@ grep -oE 'src="[^"]+"' "$folder/page/index.html" | sed 's/src="//; s/"//' | whil
     [ -e "$folder/page/$file" ] || echo "$file"
 done > "$folder/wrong"
 [ ! -s "$folder/wrong" ] || complain "the page names $(cat "$folder/wrong")"
+grep -o '<img src="[^"]*"' "$folder/page/index.html" | head -n 1 | grep -q position-truth.png || complain 'truth is not the first picture'
+[ "$(grep -c 'type="range"' "$folder/page/index.html")" = 2 ] || complain 'a picture has no slider to its difference'
+# a sign beside each colour; all steps have the same number of decimals
+grep -q '"fault"><td>&#x2717;</td>.*>[0-9]*[.][0-9][0-9] %' "$folder/page/index.html" || complain 'the figure of the fault'
+grep -q '"cure"><td>&#x2713;</td>.*>[0-9]*[.][0-9][0-9] %' "$folder/page/index.html" || complain 'the figure of the cure'
 "$gnomon" lesson position --backend egl --size 96x72 --json | grep -q '"wrong": [0-9]' || complain 'JSON'
 "$gnomon" render lesson:position --backend egl --size 96x72 -o "$folder/a.png" || complain 'the scene of a lesson'
 
