@@ -62,7 +62,8 @@ bool gn_stage_sun_moment(const struct gn_settings *settings, const char *text, d
                          struct gn_err *err) {
     struct gn_date date;
     if (!text || !gn_date_parse(text, &date)) {
-        *utc_s = (double)(gn_clock_day_ns() / GN_NS_PER_S);
+        const int64_t now_s = gn_clock_day_ns() / GN_NS_PER_S;
+        *utc_s = (double)now_s;
         return true;
     }
     return gn_date_utc(&date, settings->sun.time_zone, utc_s, err) ||
