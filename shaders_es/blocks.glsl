@@ -86,7 +86,7 @@
 #define FILTER_SIZE 2     /* xy: width and height of the map in texels; zw: their inverse */
 #define FILTER_TABLE 3    /* x: largest read offset from a lookup in the SAT, texels; y: column of the tile's first block sum */
 #define FILTER_CODE 4     /* code * x + y: 0..1 over the range that moments cover */
-#define FILTER_CONE 5     /* x: texels of a cone's radius per unit of code; y: how far a step reads, texels of the cone map; z: texels of the map along a side of one of those */
+#define FILTER_CONE 5     /* x: texels of a cone's radius per unit of code; y, z: how far a step reads, texels of the cone map and of the map */
 #define FILTER_FLOOR 6    /* x, y: shares of the light that occlusion and shadows can take; z: weight over what is there */
 #define FILTER_FLOOR_X 7  /* xyz: dot with (uv, 1): x over the floor's square, -1..1; w: visibility = code * w + FILTER_FLOOR_Z.w */
 #define FILTER_FLOOR_Z 8  /* xyz: the same for z */

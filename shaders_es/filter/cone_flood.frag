@@ -12,7 +12,7 @@ const float CONE_DETOUR = 0.96;
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), low = ivec2(u_pass[FILTER_RECT].xy), high = ivec2(u_pass[FILTER_RECT].zw);
     int far = int(u_pass[FILTER_CONE].y);
-    float texels = u_pass[FILTER_CONE].z * CONE_DETOUR * float(far);
+    float texels = CONE_DETOUR * u_pass[FILTER_CONE].z;
     vec2 best = cone_fetch(u_map_0, at);
     for (int y = -1; y <= 1; y++)
         for (int x = -1; x <= 1; x++) {

@@ -1,5 +1,5 @@
-// Cone map (shadow/cone.glsl), first step: the nearest blocker in each block of SIDE by SIDE texels. map_code() comes from
-// lib/map_*.glsl of the light's encoding, cone_store() from lib/cone_*.glsl.
+// Cone map (shadow/cone.glsl), first step where things move: as filter/cone_seeds.frag, of blocks of SIDE by SIDE texels. map_code()
+// comes from lib/map_*.glsl of the light's encoding, cone_store() from lib/cone_*.glsl.
 #include "lib/pass.glsl"
 
 uniform MAP_SAMPLER u_map_0;

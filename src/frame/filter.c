@@ -139,7 +139,7 @@ static void filter_constants(const struct gn_shadow_view *view, uint32_t tile,
     code_transform(view, tile, c[FILTER_CODE]);
     c[FILTER_CONE][0] = cone_growth(view, tile);
     c[FILTER_CONE][1] = (float)stage->reach_px;
-    c[FILTER_CONE][2] = (float)view->map.cell_px;
+    c[FILTER_CONE][2] = (float)(stage->reach_px * view->map.cell_px);
     if (view->technique == GN_TECHNIQUE_FLOOR) floor_constants(view, c);
     for (int k = 0; k < 2; k++) {
         c[FILTER_SIZE][k] = size[k];
