@@ -256,10 +256,20 @@ static void await_rest(pid_t pid) {
     }
 }
 
+/* By the last line of --stats; 0: there is none yet. */
+static int count_drawn(struct window_shown *s) {
+    char said[4000];
+    const char *last = "";
+    int drawn = 0;
+    window_read_said(s, said, sizeof said);
+    for (const char *line = said; (line = strstr(line, " fps, ")); line++) last = line;
+    sscanf(last, " fps, %d drawn", &drawn);
+    return drawn;
+}
+
 static void test_a_still_picture_is_drawn_once(void **state) {
     (void)state;
     struct window_shown s;
-    char said[4000];
     const char *args[] = {"show",    window_scene,     "--backend", "window", "--size",
                           "320x200", "--no-animation", "--stats",   NULL};
     const int seconds = gn_shot_full() ? 60 : 3;
@@ -268,18 +278,17 @@ static void test_a_still_picture_is_drawn_once(void **state) {
     window_assert_becomes_render(&s, "320x200", "window-still");
     await_rest(s.pid);
     const int64_t before_ms = cpu_ms_of(s.pid);
+    const int loaded = count_drawn(&s); /* on a slow machine those of the bar among them */
     sleep((unsigned)seconds);
     const int64_t spent_ms = cpu_ms_of(s.pid) - before_ms;
     kill(s.pid, SIGTERM);
     assert_int_equal(window_end_of(&s), 0);
-    window_read_said(&s, said, sizeof said);
+    const int drawn = count_drawn(&s);
     unlink(s.said);
-    const char *last = said;
-    for (const char *line = said; (line = strstr(line, " fps, ")); line++) last = line;
-    int drawn = 0;
-    assert_int_equal(sscanf(last, " fps, %d drawn", &drawn), 1);
-    printf("%d frames drawn and %d ms of CPU time in %d s\n", drawn, (int)spent_ms, seconds);
-    assert_in_range(drawn, 1, 5); /* the first, and what the server asked for */
+    printf("%d frames drawn, %d of them at first, and %d ms of CPU time in %d s\n", drawn, loaded,
+           (int)spent_ms, seconds);
+    assert_true(drawn >= 1);
+    assert_in_range(drawn - loaded, 0, 4); /* what the server asked for */
     assert_true(spent_ms <= seconds * 10);
 }
 
