@@ -59,13 +59,18 @@ static uint32_t count_floods(const struct gn_plan *plan, uint32_t slot) {
     return count - 2;
 }
 
+/* Of a directional light, the only one. */
+static void begin_one_cone_map(struct gn_plan_fixture *f) {
+    gn_plan_begin(f, GN_EVERY_CAP);
+    choose(f, GN_TECHNIQUE_CONE);
+    f->opts.shadow.cascades = 1;
+    f->scene->light_count = 1;
+}
+
 static void test_cones_reach_as_far_as_the_light_is_large(void **state) {
     (void)state;
     struct gn_plan_fixture f;
-    gn_plan_begin(&f, GN_EVERY_CAP);
-    choose(&f, GN_TECHNIQUE_CONE);
-    f.opts.shadow.cascades = 1;
-    f.scene->light_count = 1;
+    begin_one_cone_map(&f);
     f.scene->lights[0].radius = 0.001f;
     assert_int_equal(count_floods(gn_plan_make(&f), 0), 2);
     const uint64_t before = hash_of(gn_plan_make(&f));
@@ -89,10 +94,7 @@ static uint32_t width_of_cones(const struct gn_plan *plan) {
 static void test_cone_maps_are_smaller_where_things_move(void **state) {
     (void)state;
     struct gn_plan_fixture f;
-    gn_plan_begin(&f, GN_EVERY_CAP);
-    choose(&f, GN_TECHNIQUE_CONE);
-    f.opts.shadow.cascades = 1;
-    f.scene->light_count = 1;
+    begin_one_cone_map(&f);
     for (uint32_t px = 256; px <= 2048; px *= 2) {
         GN_LIGHT_SET(&f.opts.shadow.any, map_px, px);
         assert_int_equal(width_of_cones(gn_plan_make(&f)), px < 512 ? px / 2 : 256);
