@@ -116,7 +116,7 @@ static inline bool gn_technique_replaces_map(enum gn_technique technique) {
 uint32_t gn_technique_map_px(enum gn_technique technique, uint32_t px);
 /* Along a side, texels of its map per texel of its filter's textures: 1, cone maps 2. Where things
  * move and the map has one tile, up to 8, if 256 texels of a cone map are left: a flooding step
- * costs as much as it has texels, and errors in penumbrae grow by less than a tenth. */
+ * costs as much as it has texels (README.md: what that costs in penumbrae). */
 uint32_t gn_technique_cell_px(enum gn_technique technique, uint32_t map_px, bool moves_in_one_tile);
 
 /* All of the table in the order of their ranks. */

@@ -81,6 +81,8 @@ static void view_finish(struct view *v) {
     gn_scene_destroy(v->scene);
 }
 
+static bool moves; /* what casts: cone maps are smaller then */
+
 /* The light's visibility. */
 static void shoot(const struct view *v, enum gn_technique technique, struct gn_picture *shot) {
     static float aov[4 * PIXELS_MAX];
@@ -94,6 +96,7 @@ static void shoot(const struct view *v, enum gn_technique technique, struct gn_p
     struct gn_err err = {0};
     struct gn_pose pose;
     gn_pose_init(&pose, v->scene, GN_POSE_DEFAULT);
+    for (uint32_t i = 0; i < v->scene->item_count; i++) pose.items[i].moves |= moves;
     if (!gn_gl_load(gl, v->scene, &err)) fail_msg("%s", err.text);
     struct gn_frame *frame = gn_frame_create(v->scene, gn_gl_caps(gl));
     const struct gn_plan *plan = gn_frame_build(frame, &pose, &opts, NULL);
@@ -315,6 +318,34 @@ static void test_stacks(void **state) {
     assert_true(ok);
 }
 
+/* Blocks of four by four texels: over all, an error that is larger by a tenth at most. */
+static void test_cones_of_what_moves(void **state) {
+    (void)state;
+    double sums[2] = {0};
+    for (int i = -1; i < GN_PENUMBRA_COUNT; i++) {
+        struct view v;
+        struct gn_err err = {0};
+        char *path = i < 0 ? strdup("build/selftest/stack.glb") : gn_penumbra_write(i, &err);
+        struct gn_scene *scene = path ? gn_scene_load(path, NULL, NULL, &err) : NULL;
+        if (!scene) fail_msg("%s", err.text);
+        view_init(&v, scene, i < 0 ? .3f : 0);
+        free(path);
+        double errors[2];
+        for (int k = 0; k < 2; k++) {
+            moves = k == 1;
+            errors[k] = error_of(&v, GN_TECHNIQUE_CONE);
+            sums[k] += errors[k];
+        }
+        moves = false;
+        printf("%-7s still %.4f, moving %.4f\n", i < 0 ? "stack" : gn_penumbra_names[i], errors[0],
+               errors[1]);
+        assert_true(errors[1] <= .06);
+        view_finish(&v);
+    }
+    printf("moving: %.3f of the still error\n", sums[1] / sums[0]);
+    assert_true(sums[1] <= 1.1 * sums[0]);
+}
+
 /* ---- the scenes of test_penumbra, and thin blockers high over low ones ---- */
 
 static void view_penumbra(struct view *v, int which, int width_px, int height_px) {
@@ -431,10 +462,12 @@ static void test_how_many_pixels_pay(void **state) {
     free(shaders);
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    if (argc > 1) cmocka_set_test_filter(argv[1]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_whole_scenes),
         cmocka_unit_test(test_stacks),
+        cmocka_unit_test(test_cones_of_what_moves),
         cmocka_unit_test(test_with_fewer_taps_no_worse_than_pcss),
         cmocka_unit_test(test_thin_blockers_high_over_low_ones),
         cmocka_unit_test(test_how_many_pixels_pay), /* last: it takes other shaders */
