@@ -114,9 +114,29 @@ void gn_cost_listen(struct gn_listener *listener, struct gn_gl *gl) {
     gl->fn.CheckFramebufferStatus = count_framebuffer;
 }
 
+void gn_cost_forget_programs(struct gn_gl *gl) {
+    gn_gl_use_program(gl, 0);
+    gn_gl_programs_finish(gl);
+}
+
+/* A compiler that has compiled an equal stage for a program that is still there tells of it only
+ * once: so no other is. */
+bool gn_cost_compile(struct gn_listener *listener, const struct gn_plan *plan, uint32_t index,
+                     const char *name, struct gn_cost *cost, struct gn_err *err) {
+    struct gn_gl *gl = listener->gl;
+    *cost = (struct gn_cost){0};
+    gn_cost_forget_programs(gl);
+    listener->into = cost;
+    const bool ok = gn_gl_program_prepare(gl, &plan->programs[index], err) &&
+                    gn_gl_touch(gl, plan, index, err) && gn_gl_error_check(gl, name, err);
+    listener->into = NULL;
+    return ok && (gn_cost_is_whole(cost) ||
+                  gn_fail(err, "the driver has not compiled both stages"));
+}
+
 bool gn_cost_hash(const struct gn_gl *gl, const struct gn_plan *plan,
-                  const struct gn_program_key *key, uint64_t *out) {
-    *out = gn_hash(GN_HASH_INIT, key, sizeof *key);
+                  const struct gn_program_key *key, const char *name, uint64_t *out) {
+    *out = gn_hash(GN_HASH_INIT, name, strlen(name));
     *out = gn_hash(*out, &plan->output, sizeof plan->output);
     *out = gn_hash(*out, &plan->msaa, sizeof plan->msaa);
     for (int shader = GN_GL_VERTEX; shader <= GN_GL_FRAGMENT; shader++) {
@@ -135,7 +155,7 @@ bool gn_cost_find(const char *path, uint64_t hash, struct gn_cost *cost) {
     unsigned long long known;
     while (file && cost->count < GN_COST_STAGES && fgets(line, sizeof line, file)) {
         struct gn_cost_stage *stage = &cost->stages[cost->count];
-        cost->count += sscanf(line, "COST %llx %u %u %d %15s", &known, &stage->instructions,
+        cost->count += sscanf(line, "%llx %u %u %d %15s", &known, &stage->instructions,
                               &stage->spills, &stage->fetches, stage->name) == 5 &&
                        known == hash;
     }

@@ -28,9 +28,16 @@ bool gn_cost_is_whole(const struct gn_cost *cost);
 /* One line of the driver's, "FRAGMENT shader: 22 inst, .., 0:0 spills:fills"; false: it is none. A
  * stage that is told of again is the later one: drivers compile once more for what is bound. */
 bool gn_cost_read(struct gn_cost *cost, const char *line);
-/* Of all that a driver compiles by: the sources, and the picture's form. False: no sources. */
+/* Deletes all programs, so that each is compiled again when it is needed. */
+void gn_cost_forget_programs(struct gn_gl *gl);
+/* Links program `index` of the plan and draws with it wherever the plan does, and hears what that
+ * cost. `name` is for errors: a program that does not link or draw, a stage that was not compiled. */
+bool gn_cost_compile(struct gn_listener *listener, const struct gn_plan *plan, uint32_t index,
+                     const char *name, struct gn_cost *cost, struct gn_err *err);
+/* Of all that a driver compiles by: the program's name, its sources, and the picture's form. False:
+ * no sources. */
 bool gn_cost_hash(const struct gn_gl *gl, const struct gn_plan *plan,
-                  const struct gn_program_key *key, uint64_t *out);
+                  const struct gn_program_key *key, const char *name, uint64_t *out);
 /* What a file of an earlier run has of the program with that hash; path may be NULL. */
 bool gn_cost_find(const char *path, uint64_t hash, struct gn_cost *cost);
 

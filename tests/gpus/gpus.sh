@@ -4,7 +4,7 @@
 # Those that have no ES 3.0 must be refused by name; programs that are broken or dear must be found.
 #   GPUS          the same as the arguments, with commas between
 #   GN_FULL=1     all lights, encodings, materials and pictures; nothing is taken from the cache
-#   GN_UPDATE=1   writes the budgets
+#   GN_UPDATE=1   writes the budgets, and what is known
 #   BUILD         where tests/tool_gpus, tests/ident.so and gnomon are, built for arm64
 set -u
 here=tests/gpus # tests run in the top folder
@@ -50,15 +50,26 @@ on() {
         -E LD_PRELOAD="$preload$libraries/lib${driver}_noop_drm_shim.so" "$@"
 }
 
-# What an earlier run with the same driver and the same way of measuring has found.
+# What was found before by the same compiler and the same way of measuring (WAY): lines "HASH INSTRUCTIONS SPILLS FETCHES STAGE" of
+# programs. Those of known/GPU are for everybody, those of the store of this machine's user. A program whose hash begins like
+# that of the last commit is compiled again, so that every one is now and then.
+way=$(cd "$root$libraries" && echo libgallium*.so | sed 's/\.so$//')-$(cat "$here"/cost.[ch] "$here/ident.c" | sha256sum | cut -c 1-12)
+again=$(git rev-parse HEAD 2> /dev/null | cut -c 1)
 known_of() {
-    echo "$store/gpus-costs/$1-$(basename "$root")-$(cat "$here"/*.[ch] | sha256sum | cut -c 1-12)"
+    echo "$store/gpus-costs/$1-$way"
+}
+know() {
+    sed "1{/ $way\$/!Q}" "$here/known/$1" 2> /dev/null | grep -v "^[#$again]"
+    cat "$(known_of "$1")" 2> /dev/null
+}
+costs() {
+    awk -F '\t' '$1 == "COST" { print $2, $3, $4, $5, $6 }' "$1"
 }
 keep() {
     local known
     known=$(known_of "$1")
     mkdir -p "$(dirname "$known")"
-    { cat "$known" 2> /dev/null; grep '^COST' "$2"; } | sort -u > "$known.$$" && mv "$known.$$" "$known"
+    { cat "$known" 2> /dev/null; costs "$2"; } | sort -u > "$known.$$" && mv "$known.$$" "$known"
 }
 
 # measure GPU FILE ARGUMENT..: what the tool prints; its exit status
@@ -122,11 +133,12 @@ update() {
 # One GPU: its lines, the last of which says how it was. To write a budget each technique is tried with
 # all three kinds of light, one a turn, so that the table of techniques is whole.
 try() {
-    local gpu=$1 turn=$2 file=$out/$1 known began=$SECONDS arguments status=0 said shifts=(0) shift
-    known=$(known_of "$gpu")
+    local gpu=$1 turn=$2 file=$out/$1 began=$SECONDS arguments status=0 said shifts=(0) shift
     [ -z "${GN_UPDATE:-}" ] || [ -n "${GN_FULL:-}" ] || shifts=(0 1 2)
+    rm -f "$file.costs"
     for shift in "${shifts[@]}"; do
-        arguments=(--turn $((turn + shift)) --known "$known")
+        know "$gpu" > "$file.known"
+        arguments=(--turn $((turn + shift)) --known "$file.known")
         [ -z "${GN_FULL:-}" ] || arguments=(--full)
         case $gpu in pi4 | g52) arguments+=(--looks) ;; esac
         measure "$gpu" "$file" "${arguments[@]}"
@@ -136,8 +148,10 @@ try() {
         [ "$said" != 124 ] || echo "$gpu: not done after ${GPU_LIMIT:-1500} seconds"
         grep '^FAIL' "$file" | sed "s/^FAIL\t/$gpu: /"
         [ "$said" = 0 ] || [ -s "$file" ] || tail -n 3 "$file.err"
+        costs "$file" >> "$file.costs"
         [ -z "${GN_UPDATE:-}" ] || update "$gpu" "$file"
     done
+    [ -z "${GN_UPDATE:-}" ] || { echo "# $gpu, $way" && sort -u "$file.costs"; } > "$here/known/$gpu"
     compare "$gpu" "$file" || status=1
     echo "$gpu: $(sed -n 's/^GPU\t\([^\t]*\)\t.*/\1/p' "$file"): $(sed -n 's/^DONE\t//p' "$file") ($((SECONDS - began)) s)"
     return "$status"
@@ -163,7 +177,8 @@ mutant() {
     cp -R shaders_es "$folder"
     sed -i "$3" "$folder/caption.frag"
     ! cmp -s shaders_es/caption.frag "$folder/caption.frag" || { echo "$2: the shader is as it was" && return 1; }
-    if measure "$gpu" "$file" --known "$(known_of "$gpu")" --shaders "$folder"; then
+    know "$gpu" > "$file.known"
+    if measure "$gpu" "$file" --known "$file.known" --shaders "$folder"; then
         said=$(compare "$gpu" "$file") && { echo "$gpu: a shader that is $2 is not found" && return 1; }
     else
         said=$(grep '^FAIL' "$file")

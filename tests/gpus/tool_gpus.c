@@ -6,8 +6,8 @@
  * is in the tables. What is tried with one kind of light only is so with another one for another N.
  * Prints, separated by tabs,
  *   GPU renderer version    COST hash instructions spills fetches stage program    FAIL what DONE
- * counts and ends with 0, 1 (something failed) or 2 (nothing could be tried). COST lines of an
- * earlier run with the same driver may be in FILE: what has the same hash is not compiled again. */
+ * counts and ends with 0, 1 (something failed) or 2 (nothing could be tried). What an earlier run
+ * with the same driver has found may be in FILE (known/): what has the same hash is not compiled again. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,28 +54,6 @@ static bool is_drawn(const struct gn_plan *plan, uint32_t program) {
     return false;
 }
 
-static void forget_programs(struct gn_gl *gl) {
-    gn_gl_use_program(gl, 0);
-    gn_gl_programs_finish(gl);
-}
-
-/* Links it and draws with it wherever the plan does, and hears what that cost. A compiler that has
- * compiled an equal stage for a program that is still there tells of it only once: so no other is.
- */
-static bool compile(struct bench *b, const struct gn_plan *plan, uint32_t index, const char *name,
-                    struct gn_cost *cost) {
-    struct gn_err err = {0};
-    *cost = (struct gn_cost){0};
-    forget_programs(b->gl);
-    b->listener.into = cost;
-    const bool ok = gn_gl_program_prepare(b->gl, &plan->programs[index], &err) &&
-                    gn_gl_touch(b->gl, plan, index, &err) && gn_gl_error_check(b->gl, name, &err);
-    b->listener.into = NULL;
-    b->compiled++;
-    if (!ok) return fail(b, name, err.text);
-    return gn_cost_is_whole(cost) || fail(b, name, "the driver has not compiled both stages");
-}
-
 static bool measure(struct bench *b, const struct gn_plan *plan, uint32_t index) {
     struct gn_cost cost = {0};
     uint64_t hash = 0;
@@ -84,8 +62,12 @@ static bool measure(struct bench *b, const struct gn_plan *plan, uint32_t index)
     gn_gl_key_text(key, name, sizeof name);
     gn_keys_add(&b->seen, key);
     b->kinds |= 1u << key->kind;
-    const bool known = gn_cost_hash(b->gl, plan, key, &hash) && gn_cost_find(b->known, hash, &cost);
-    if (!known && !compile(b, plan, index, name, &cost)) return false;
+    if (!gn_cost_hash(b->gl, plan, key, name, &hash) || !gn_cost_find(b->known, hash, &cost)) {
+        struct gn_err err = {0};
+        b->compiled++;
+        if (!gn_cost_compile(&b->listener, plan, index, name, &cost, &err))
+            return fail(b, name, err.text);
+    }
     for (int i = 0; i < cost.count; i++)
         printf("COST\t%016llx\t%u\t%u\t%d\t%s\t%s\n", (unsigned long long)hash,
                cost.stages[i].instructions, cost.stages[i].spills, cost.stages[i].fetches,
@@ -139,7 +121,7 @@ static bool draw(struct bench *b, const struct stage *s, const struct gn_frame_o
 
 static void stage_open(struct bench *b, struct stage *s, enum gn_gpu_scene which) {
     struct gn_err err = {0};
-    forget_programs(b->gl);
+    gn_cost_forget_programs(b->gl);
     *s = (struct stage){.scene = gn_gpu_scene_make(which)};
     if (!gn_gl_load(b->gl, s->scene, &err)) fail(b, "loading a scene", err.text);
     gn_pose_init(&s->pose, s->scene, GN_POSE_DEFAULT);
