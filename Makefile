@@ -92,10 +92,12 @@ IN_board-arm64 := $(MACHINES)
 IN_gpus     := check-gpus accept full
 IN_deb      := deb release repository check-deb check-release check-service full
 IN_deb-test := check-deb check-release check-service full
-BOOT := $(if $(READY),,$(filter run deb release repository lessons check-deb check-release check-gpus $(IN_test),$(GOALS)))
+IN_image    := image release check-image check-release
+IN_image-test := check-image
+BOOT := $(if $(READY),,$(filter run deb release repository image lessons check-deb check-release check-image check-gpus $(IN_test),$(GOALS)))
 ifneq ($(BOOT),)
 $(BOOT):
-	@sh board/deps.sh build run $(foreach s,test board board-arm64 gpus deb deb-test,$(if $(filter $@,$(IN_$s)),$s))
+	@sh board/deps.sh build run $(foreach s,test board board-arm64 gpus deb deb-test image image-test,$(if $(filter $@,$(IN_$s)),$s))
 	@+$(SUB) $@
 $(filter-out $(BOOT) $(BARE),$(GOALS)):
 	@+$(SUB) $@
@@ -453,7 +455,7 @@ install: all
 	    sh board/install.sh install
 deb: dist
 	@O='$(O)' VERSION='$(VERSION)' sh board/deb.sh
-release: dist
+release: dist assets/sundial.glb
 	@O='$(O)' VERSION='$(VERSION)' sh board/release.sh
 repository:
 	@REPOSITORY='$(REPOSITORY)' KEY='$(KEY)' sh board/repository.sh $(O)/gnomon-$(VERSION) $(O)/repository

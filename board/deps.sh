@@ -1,7 +1,8 @@
 #!/bin/sh
 # deps.sh SET..: installs the Debian packages of the sets that are missing. Says nothing when none is.
 # build, run, test, board and board-arm64 (virtual machines), gpus (the compilers of those that are not
-# here), deb and deb-test (packages, and what examines them) are for this machine; cross is what building for CROSS=aarch64-linux-gnu adds.
+# here), deb and deb-test (packages, and what examines them), image and image-test (cards, and machines that start them) are for this
+# machine; cross is what building for CROSS=aarch64-linux-gnu adds.
 set -eu
 
 libraries='libc6-dev libjansson-dev libpng-dev zlib1g-dev libturbojpeg0-dev libinih-dev libgpiod-dev libegl-dev libgles-dev
@@ -28,6 +29,9 @@ optional_gpus='gcc-aarch64-linux-gnu'
 deb='build-essential dpkg-dev debhelper libassimp-dev libseccomp-dev libglfw3-dev libfreetype-dev libraqm-dev libosmesa6-dev git'
 deb_test='lintian desktop-file-utils appstream systemd'
 optional_deb='mmdebstrap' # for roots of another Debian or architecture, and to install in
+# cards to flash, those of another architecture, too; machines that start them
+optional_image='mmdebstrap dosfstools mtools fdisk xz-utils qemu-user-static binfmt-support arch-test'
+optional_image_test='qemu-system-x86 qemu-system-arm ovmf qemu-efi-aarch64 xxd'
 
 command -v dpkg-query > /dev/null || exit 0 # not Debian: the Makefile says what pkg-config does not find
 
@@ -67,6 +71,8 @@ for set in "$@"; do
     board-arm64) [ "$own" != amd64 ] || extra="$extra $optional_board_arm64" ;;
     deb) wanted="$wanted $deb" extra="$extra $optional_deb $repository" ;;
     deb-test) wanted="$wanted $deb_test" ;;
+    image) extra="$extra $optional_image" ;;
+    image-test) extra="$extra $optional_image_test" ;;
     gpus) [ "$own" != amd64 ] || extra="$extra $optional_gpus" ;;
     cross)
         added=$(architecture_of "${CROSS:-}")

@@ -43,7 +43,7 @@ options_of "$folder/help" > "$folder/own"
 [ ! -x "$import" ] || "$import" --help >> "$folder/help"
 options_of "$folder/help" > "$folder/options"
 grep -ohE -- '--[a-z][a-z-]+' README.md assets/SCENES.md board/README.md board/use.md src/options/README.md src/shadow/README.md | sort -u |
-    grep -vxF -f "$folder/options" | grep -vxE -- '--(now|create|reload|no-install-recommends)' > "$folder/unknown"
+    grep -vxF -f "$folder/options" | grep -vxE -- '--(now|create|reload|no-install-recommends|batch|passphrase|quick-generate-key)' > "$folder/unknown"
 [ ! -s "$folder/unknown" ] || complain "options that do not exist: $(tr '\n' ' ' < "$folder/unknown")"
 # shellcheck disable=SC2086
 grep -ohE '(`|^sudo |&& |^)make [a-z][a-z0-9/_-]+' $pages | sed 's/.*make //' | grep -v / | sort -u | while read -r goal; do

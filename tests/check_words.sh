@@ -176,7 +176,13 @@ diff "$folder/expected" "$folder/found" || complain 'these findings of the check
 
 # ---- documents, manuals, --help ------------------------------------------------------------------
 # shellcheck disable=SC2086
-findings $pages > "$folder/all"
+findings $pages board/image/card.txt > "$folder/all"
+
+# the comments of configurations that come with gnomon
+for page in board/image/board.ini board/*/kiosk.ini assets/book/*.ini; do
+    sed 's/^[;#] //; t; s/.*//' "$page" > "$folder/page"
+    findings label="$page" "$folder/page" >> "$folder/all"
+done
 
 # the tagged paragraphs of a manual, as items of a list
 for page in "$out/gnomon.1" "$out/gnomon.ini.5" board/gnomon-import.1; do

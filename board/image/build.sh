@@ -25,7 +25,7 @@ refuse() {
 [ "$(id -u)" = 0 ] || refuse 'only root can make it'
 for tool in mmdebstrap mke2fs mkfs.vfat mcopy sfdisk; do command -v $tool > /dev/null || refuse "needs $tool: apt-get install mmdebstrap e2fsprogs dosfstools mtools fdisk"; done
 debs=$(ls "$O/deb/$suite/"gnomon_*_"$arch".deb "$O/deb/$suite/"gnomon-import_*_"$arch".deb 2> /dev/null) || refuse "no packages for $arch in $O/deb/$suite: make deb SUITE=$suite ARCH=$arch"
-[ "$arch" = "$(dpkg --print-architecture)" ] || arch-test "$arch" > /dev/null 2>&1 || refuse "programs of $arch do not run here: apt-get install qemu-user-static binfmt-support arch-test"
+[ "$arch" = "$(dpkg --print-architecture)" ] || arch-test "$arch" > /dev/null 2>&1 || refuse "programs of $arch do not run here: apt-get install qemu-user-static binfmt-support arch-test; without systemd mount binfmt_misc at /proc/sys/fs/binfmt_misc and run update-binfmts --enable"
 packages=linux-image-$arch,systemd-sysv,systemd-timesyncd,systemd-resolved,udev,dbus,kmod,initramfs-tools,overlayroot,busybox,e2fsprogs,dosfstools,fdisk
 packages=$packages,ca-certificates,iproute2,openssh-server,wpasupplicant,tzdata,fonts-dejavu-core
 components=main

@@ -2,7 +2,7 @@
 # make release and make repository (make check-release): built twice, the second time in another folder, time zone, language, umask and
 # for another user, they have the same bytes; then the line of README.md installs gnomon in fresh roots of Debian 12 and 13, without a
 # compiler, and the default scene is rendered there; a changed package is refused. Roots of another architecture
-# need qemu-user-static, binfmt_misc and arch-test. SUITES, ARCHES: fewer. BUILT=1: with the release that is there.
+# need qemu-user-static, binfmt_misc and arch-test. SUITES, ARCHES, IMAGES: fewer. BUILT=1: with the release that is there.
 # What else is refused: check_repository.sh.
 set -eu
 : "${O:=build}" "${VERSION:?}" "${REPOSITORY:?}"
