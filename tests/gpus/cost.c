@@ -130,8 +130,8 @@ bool gn_cost_compile(struct gn_listener *listener, const struct gn_plan *plan, u
     const bool ok = gn_gl_program_prepare(gl, &plan->programs[index], err) &&
                     gn_gl_touch(gl, plan, index, err) && gn_gl_error_check(gl, name, err);
     listener->into = NULL;
-    return ok && (gn_cost_is_whole(cost) ||
-                  gn_fail(err, "the driver has not compiled both stages"));
+    return ok &&
+           (gn_cost_is_whole(cost) || gn_fail(err, "the driver has not compiled both stages"));
 }
 
 bool gn_cost_hash(const struct gn_gl *gl, const struct gn_plan *plan,

@@ -31,7 +31,8 @@ bool gn_cost_read(struct gn_cost *cost, const char *line);
 /* Deletes all programs, so that each is compiled again when it is needed. */
 void gn_cost_forget_programs(struct gn_gl *gl);
 /* Links program `index` of the plan and draws with it wherever the plan does, and hears what that
- * cost. `name` is for errors: a program that does not link or draw, a stage that was not compiled. */
+ * cost. `name` is for errors: a program that does not link or draw, a stage that was not compiled.
+ */
 bool gn_cost_compile(struct gn_listener *listener, const struct gn_plan *plan, uint32_t index,
                      const char *name, struct gn_cost *cost, struct gn_err *err);
 /* Of all that a driver compiles by: the program's name, its sources, and the picture's form. False:

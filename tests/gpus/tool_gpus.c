@@ -7,7 +7,8 @@
  * Prints, separated by tabs,
  *   GPU renderer version    COST hash instructions spills fetches stage program    FAIL what DONE
  * counts and ends with 0, 1 (something failed) or 2 (nothing could be tried). What an earlier run
- * with the same driver has found may be in FILE (known/): what has the same hash is not compiled again. */
+ * with the same driver has found may be in FILE (known/): what has the same hash is not compiled
+ * again. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
