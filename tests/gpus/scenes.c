@@ -111,6 +111,7 @@ static void add_posed(struct gn_maker *m, const struct square *square) {
     static const float eighths[16] = {.125f, .125f, .125f, .125f, .125f, .125f, .125f, .125f,
                                       .125f, .125f, .125f, .125f, .125f, .125f, .125f, .125f};
     static const float lift[12] = {0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0};
+    static const float times[2] = {0, 1}, places[6] = {0, 1, 0, 0, 1.5f, 0};
     char four[60], eight[120], target[60], json[500];
     const int j = gn_maker_accessor(m, "VEC4", BYTES, 4, joints, sizeof joints, NULL);
     const int w = gn_maker_accessor(m, "VEC4", FLOATS, 4, eighths, sizeof eighths, NULL);
@@ -119,6 +120,12 @@ static void add_posed(struct gn_maker *m, const struct square *square) {
     gn_maker_add(m, "nodes", "{'translation':[0,1.2,0]}");
     snprintf(json, sizeof json, "[{'joints':[%d,%d]}]", joint, joint + 1);
     gn_maker_set(m, "skins", json);
+    snprintf(json, sizeof json,
+             "[{'samplers':[{'input':%d,'output':%d}],"
+             "'channels':[{'sampler':0,'target':{'node':%d,'path':'translation'}}]}]",
+             gn_maker_accessor(m, "SCALAR", FLOATS, 2, times, sizeof times, "'min':[0],'max':[1]"),
+             gn_maker_accessor(m, "VEC3", FLOATS, 2, places, sizeof places, NULL), joint);
+    gn_maker_set(m, "animations", json);
     snprintf(four, sizeof four, ",'JOINTS_0':%d,'WEIGHTS_0':%d", j, w);
     snprintf(eight, sizeof eight, "%s,'JOINTS_1':%d,'WEIGHTS_1':%d", four, j, w);
     snprintf(target, sizeof target, ",'targets':[{'POSITION':%d,'NORMAL':%d}]", t, t);

@@ -16,7 +16,7 @@ enum gn_gpu_scene {
     GN_GPU_LOOK,  /* metal and roughness in a texture, also with a normal map, on an unseen floor; a
                      sun */
     GN_GPU_POSED, /* cards with a skin of up to four and up to eight joints, with targets, and with
-                     both; a sun */
+                     both; a clip moves the skins; a sun */
     GN_GPU_CROWD, /* ten lights, so that some come in passes that add */
     GN_GPU_SCENE_COUNT,
 };

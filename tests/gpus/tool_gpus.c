@@ -387,12 +387,19 @@ static void try_looks(struct bench *b) {
     stage_close(&s);
 }
 
-/* Vertices that follow joints, and that targets move: of things and of what casts. */
+/* Vertices that follow joints, and that targets move: of things and of what casts, into planar
+ * masks, too. Cone maps of what moves have larger blocks, by the size of the map. */
 static void try_posed(struct bench *b) {
     struct stage s;
-    const struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF, GN_ENCODING_AUTO);
+    struct gn_frame_opts opts = opts_of(GN_TECHNIQUE_PCF, GN_ENCODING_AUTO);
     stage_open(b, &s, GN_GPU_POSED);
     draw(b, &s, &opts, EVERYTHING, "skins and targets");
+    opts.shadow.planar_points = 64, opts.shadow.cascades = 1; /* more have the usual blocks */
+    for (uint32_t px = 512; px <= 2048; px *= 2) {
+        opts.shadow.any.map_px = px;
+        opts.shadow.any.technique = px > 512 ? GN_TECHNIQUE_CONE : GN_TECHNIQUE_PLANAR;
+        draw(b, &s, &opts, ALL_BUT_LIT, "shadows of what moves");
+    }
     stage_close(&s);
 }
 
@@ -438,20 +445,13 @@ static const char *read_arguments(struct bench *b, int argc, char **argv) {
     const char *shaders = NULL;
     for (int i = 1; i < argc; i++) {
         const bool more = i + 1 < argc;
-        if (strcmp(argv[i], "--full") == 0)
-            b->full = true;
-        else if (strcmp(argv[i], "--looks") == 0)
-            b->looks = true;
-        else if (strcmp(argv[i], "--only-looks") == 0) /* for who works on them */
-            b->looks = b->only_looks = true;
-        else if (strcmp(argv[i], "--only-posed") == 0)
-            b->only_posed = true;
-        else if (more && strcmp(argv[i], "--known") == 0)
-            b->known = argv[++i];
-        else if (more && strcmp(argv[i], "--turn") == 0)
-            b->turn = atoi(argv[++i]);
-        else if (more && strcmp(argv[i], "--shaders") == 0)
-            shaders = argv[++i];
+        b->full |= strcmp(argv[i], "--full") == 0;
+        b->only_looks |= strcmp(argv[i], "--only-looks") == 0; /* for who works on them */
+        b->only_posed |= strcmp(argv[i], "--only-posed") == 0;
+        b->looks |= b->only_looks || strcmp(argv[i], "--looks") == 0;
+        if (more && strcmp(argv[i], "--known") == 0) b->known = argv[i + 1];
+        if (more && strcmp(argv[i], "--turn") == 0) b->turn = atoi(argv[i + 1]);
+        if (more && strcmp(argv[i], "--shaders") == 0) shaders = argv[i + 1];
     }
     return shaders;
 }
