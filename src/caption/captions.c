@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "caption/atlas.h"
+#include "caption/fade.h"
 #include "caption/layout.h"
 #include "caption/page.h"
 #include "caption/shape.h"
@@ -16,13 +17,15 @@ enum {
     MARK_SHARE = 80,  /* so many marks fill the picture's shorter side */
 };
 
-static const int64_t lasts_ns[GN_CAPTION_KIND_COUNT] = {/* 0: until it is removed */
-                                                        [GN_CAPTION_MODE] = GN_CAPTION_MODE_NS,
-                                                        [GN_CAPTION_CARD] = GN_CAPTION_CARD_NS};
+/* Others come and go with what they are about. */
+static const bool rises[GN_CAPTION_KIND_COUNT] = {[GN_CAPTION_INFO] = true,
+                                                  [GN_CAPTION_MODE] = true,
+                                                  [GN_CAPTION_TEXT] = true,
+                                                  [GN_CAPTION_CARD] = true};
 
 struct caption {
     char text[TEXT_BYTES];
-    int64_t set_ns;
+    struct gn_caption_fade fade;
 };
 struct gn_captions {
     struct gn_captions_opts opts;
@@ -46,6 +49,7 @@ struct gn_captions {
 struct gn_captions *gn_captions_create(const struct gn_captions_opts *opts) {
     struct gn_captions *c = gn_xalloc(1, sizeof *c);
     c->opts = *opts;
+    if (c->opts.least_ns == 0) c->opts.least_ns = GN_CAPTION_MODE_NS;
     c->split = -1.0;
     return c;
 }
@@ -66,24 +70,79 @@ bool gn_captions_open_font(struct gn_captions *c, struct gn_err *err) {
     return !path || !*path;
 }
 
+/* A bar needs no text. */
+static bool is_there(const struct gn_captions *c, enum gn_caption_kind kind) {
+    return c->captions[kind].text[0] || (kind == GN_CAPTION_TEXT && c->bar_percent > 0);
+}
+
+static void drop(struct gn_captions *c, enum gn_caption_kind kind) {
+    c->captions[kind].text[0] = '\0';
+    if (kind == GN_CAPTION_TEXT) c->bar_percent = 0;
+    c->captions[kind].fade = (struct gn_caption_fade){0};
+    c->stale = c->changed = true;
+}
+
+static void end_caption(struct gn_captions *c, enum gn_caption_kind kind, int64_t now_ns) {
+    struct caption *caption = &c->captions[kind];
+    if (!is_there(c, kind)) return;
+    caption->fade = gn_caption_end(&caption->fade, now_ns);
+    c->changed = true;
+    if (!c->opts.rises || !rises[kind]) drop(c, kind);
+}
+
+static void begin_caption(struct gn_captions *c, enum gn_caption_kind kind, int64_t now_ns) {
+    struct caption *caption = &c->captions[kind];
+    const int64_t lasts_ns = kind == GN_CAPTION_MODE
+                                 ? gn_caption_read_ns(caption->text, c->opts.least_ns)
+                             : kind == GN_CAPTION_CARD ? GN_CAPTION_CARD_NS
+                                                       : 0;
+    caption->fade = gn_caption_begin(&caption->fade, lasts_ns, now_ns);
+    if (!c->opts.rises || !rises[kind]) caption->fade.begun_ns = now_ns - GN_CAPTION_RISE_NS;
+    c->changed = true;
+}
+
 void gn_captions_set(struct gn_captions *c, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns) {
     struct caption *caption = &c->captions[kind];
     const size_t length = text ? strnlen(text, TEXT_BYTES - 1) : 0;
-    if (strlen(caption->text) != length || memcmp(caption->text, text ? text : "", length) != 0) {
-        if (length) memcpy(caption->text, text, length);
-        caption->text[length] = '\0';
-        c->stale = c->changed = true;
+    const bool stays = caption->fade.ends_ns == INT64_MAX,
+               equal = strlen(caption->text) == length &&
+                       memcmp(caption->text, text ? text : "", length) == 0;
+    if (length == 0) {
+        if (caption->text[0]) end_caption(c, kind, now_ns);
+        return;
     }
-    if (lasts_ns[kind] && length) c->changed = true;
-    caption->set_ns = now_ns;
+    if (equal && stays) return;
+    if (!equal) {
+        if (kind == GN_CAPTION_TEXT && !stays) c->bar_percent = 0; /* it falls with the old text */
+        memcpy(caption->text, text, length);
+        caption->text[length] = '\0';
+        c->stale = true;
+    }
+    begin_caption(c, kind, now_ns);
 }
 
-void gn_captions_set_bar(struct gn_captions *c, double share) {
-    const uint32_t percent = share < 0.0 ? 0 : 1 + (share >= 1.0 ? 100 : (uint32_t)(100.0 * share));
-    if (c->bar_percent == percent) return;
-    c->bar_percent = percent;
+void gn_captions_set_least(struct gn_captions *c, int64_t least_ns) { c->opts.least_ns = least_ns; }
+
+void gn_captions_set_bar(struct gn_captions *c, double share, int64_t now_ns) {
+    struct caption *caption = &c->captions[GN_CAPTION_TEXT];
+    const uint32_t percent = share >= 1.0 ? 101 : 1 + (uint32_t)(100.0 * fmax(share, 0.0));
+    const bool falls = is_there(c, GN_CAPTION_TEXT) && caption->fade.ends_ns < INT64_MAX;
+    if (share < 0.0) {
+        if (c->bar_percent == 0 || falls) return;
+        if (!caption->text[0]) {
+            end_caption(c, GN_CAPTION_TEXT, now_ns);
+            return;
+        }
+    } else if (falls) {
+        drop(c, GN_CAPTION_TEXT);
+    }
+    const uint32_t next = share < 0.0 ? 0 : percent;
+    if (c->bar_percent == next) return;
+    const bool begins = !is_there(c, GN_CAPTION_TEXT);
+    c->bar_percent = next;
     c->stale = c->changed = true;
+    if (begins) begin_caption(c, GN_CAPTION_TEXT, now_ns);
 }
 
 void gn_captions_set_split(struct gn_captions *c, double at) {
@@ -94,31 +153,18 @@ void gn_captions_set_split(struct gn_captions *c, double at) {
 
 /* ---- time ---- */
 
-float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns) {
-    const int64_t left_ns = lasts_ns[kind] - age_ns;
-    if (lasts_ns[kind] == 0 || left_ns >= GN_CAPTION_FADE_NS) return 1.0f;
-    return left_ns > 0 ? (float)left_ns / (float)GN_CAPTION_FADE_NS : 0.0f;
-}
-
-/* A bar needs no text. */
-static bool is_there(const struct gn_captions *c, enum gn_caption_kind kind) {
-    return c->captions[kind].text[0] || (kind == GN_CAPTION_TEXT && c->bar_percent > 0);
-}
-
 static float alpha_at(const struct gn_captions *c, enum gn_caption_kind kind, int64_t now_ns) {
-    return is_there(c, kind) ? gn_caption_alpha(kind, now_ns - c->captions[kind].set_ns) : 0.0f;
+    return is_there(c, kind) ? gn_caption_alpha(&c->captions[kind].fade, now_ns) : 0.0f;
 }
 
 int64_t gn_captions_next_ns(const struct gn_captions *c) {
     int64_t next_ns = INT64_MAX;
     if (c->changed) return 0;
     for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
-        const struct caption *caption = &c->captions[kind];
-        const float alpha = alpha_at(c, kind, c->shown_ns);
-        const int64_t fades_ns = caption->set_ns + lasts_ns[kind] - GN_CAPTION_FADE_NS;
-        if (lasts_ns[kind] == 0 || alpha <= 0.0f) continue;
-        if (alpha < 1.0f) return 0;
-        if (fades_ns < next_ns) next_ns = fades_ns;
+        const int64_t at_ns = is_there(c, kind)
+                                  ? gn_caption_next_ns(&c->captions[kind].fade, c->shown_ns)
+                                  : INT64_MAX;
+        if (at_ns < next_ns) next_ns = at_ns;
     }
     return next_ns;
 }
@@ -330,6 +376,7 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
                                              uint32_t height_px, int64_t now_ns) {
     bool seen = false;
     for (int kind = 0; kind < GN_CAPTION_KIND_COUNT; kind++) {
+        if (is_there(c, kind) && now_ns >= c->captions[kind].fade.ends_ns) drop(c, kind);
         c->run.alpha[kind] = alpha_at(c, kind, now_ns);
         seen |= c->run.alpha[kind] > 0.0f;
     }

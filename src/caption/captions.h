@@ -6,16 +6,18 @@
 #include "core/err.h"
 #include "core/warn.h"
 
-#define GN_CAPTION_MODE_NS INT64_C(2000000000) /* how long a mode's name is shown */
+#define GN_CAPTION_MODE_NS INT64_C(2000000000) /* how long a mode's name is shown at least */
 #define GN_CAPTION_CARD_NS INT64_C(30000000000)
-#define GN_CAPTION_FADE_NS INT64_C(400000000) /* the part of either in which it fades */
 
 struct gn_captions;
 struct gn_captions_opts { /* zero means the default written beside */
     const char
         *font; /* file; NULL: the first found in the folders of packages; "": the built-in font */
     struct gn_warnings
-        *warnings; /* receives a warning when a font is not used, or one is missing; none */
+        *warnings;    /* receives a warning when a font is not used, or one is missing; none */
+    int64_t least_ns; /* GN_CAPTION_MODE_NS: how long GN_CAPTION_MODE is shown at least */
+    bool rises;       /* texts rise, and fall when they are removed; else they come and go at once:
+                         for a single picture */
 };
 /* Reads nothing yet: the font is opened when a text is first laid out. The texts in opts must
  * outlive it. */
@@ -24,19 +26,20 @@ void gn_captions_destroy(struct gn_captions *captions); /* NULL is legal */
 /* Opens the font now. False: the file in opts cannot be used, and the built-in font is. */
 bool gn_captions_open_font(struct gn_captions *captions, struct gn_err *err);
 
-/* Replaces the text of that kind (copied, cut at 2 kB); NULL or "" removes it. Equal text: its
- * time starts again, if it has one, else nothing changes. */
+/* Replaces the text of that kind (copied, cut at 2 kB); NULL or "" removes it. GN_CAPTION_MODE is
+ * shown as long as gn_caption_read_ns() of caption/fade.h has it, GN_CAPTION_CARD for its time,
+ * others until they are removed. Equal text: its time starts again, if it has one, else nothing
+ * changes. */
 void gn_captions_set(struct gn_captions *captions, enum gn_caption_kind kind, const char *text,
                      int64_t now_ns);
+/* As in struct gn_captions_opts, for texts that are set from now on. */
+void gn_captions_set_least(struct gn_captions *captions, int64_t least_ns);
 /* A bar under GN_CAPTION_TEXT, or alone where that has no text, filled to that share, 0 to 1; below
  * 0, as at first: no bar. */
-void gn_captions_set_bar(struct gn_captions *captions, double share);
+void gn_captions_set_bar(struct gn_captions *captions, double share, int64_t now_ns);
 /* The line of a split screen at that share of the width, with its handle; below 0, as at first:
  * none, and GN_CAPTION_LEFT and GN_CAPTION_RIGHT are not shown. */
 void gn_captions_set_split(struct gn_captions *captions, double at);
-/* Opacity of a caption that was set that long ago: 1, fading at the end of its time, then 0.
- * Pure. */
-float gn_caption_alpha(enum gn_caption_kind kind, int64_t age_ns);
 
 /* The captions on a picture of that size (before rotation) at that time; NULL: none. Valid until
  * the next call of this or set. Allocates, reads the font and lays out text only when text or size

@@ -7,7 +7,7 @@
 
 enum gn_caption_kind {
     GN_CAPTION_INFO,  /* a page: a title and rows of two columns, top left, until removed */
-    GN_CAPTION_MODE,  /* a name: two lines at most, bottom left, for 2 s */
+    GN_CAPTION_MODE,  /* a name: two lines at most, bottom left, for 2 s or longer */
     GN_CAPTION_TEXT,  /* wrapped, bottom left, until removed; a bar may be below it */
     GN_CAPTION_CARD,  /* a title and what follows, wrapped, bottom left, for 30 s */
     GN_CAPTION_LEFT,  /* beside the line of a split screen, on its left, while that is there */

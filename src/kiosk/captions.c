@@ -9,8 +9,8 @@
 #include "kiosk/private.h"
 
 void gn_show_open_captions(struct gn_show_screen *s) {
-    const struct gn_captions_opts opts = {.font = s->stage.settings->render.font,
-                                          .warnings = s->show->warnings};
+    const struct gn_captions_opts opts = {
+        .font = s->stage.settings->render.font, .warnings = s->show->warnings, .rises = true};
     gn_captions_destroy(s->text.captions);
     s->text.captions = gn_captions_create(&opts);
     s->text.view = (struct gn_kiosk_view){0};
@@ -184,7 +184,23 @@ static void write_lasting(struct gn_show_screen *s, const struct gn_info *info, 
         snprintf(text, sizeof text, "%s", info->sun);
     t->bar = progress_percent(s, now_ns);
     gn_captions_set(t->captions, GN_CAPTION_TEXT, text, now_ns);
-    gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0);
+    gn_captions_set_bar(t->captions, loads ? t->bar * .01 : -1.0, now_ns);
+}
+
+/* The caption of a change is set when it begins, and ends by itself when it can have been read. */
+static void write_change(struct gn_show_screen *s, const struct gn_kiosk_view *view,
+                         const struct gn_info *info, int64_t now_ns) {
+    struct gn_show_text *t = &s->text;
+    const int64_t least_ns = view->caption == GN_KIOSK_CAPTION_PROBLEM ? 5 * s->rules.caption_ns
+                             : view->caption == GN_KIOSK_CAPTION_NOTE && s->viewer.note_ns > 0
+                                 ? s->viewer.note_ns
+                                 : s->rules.caption_ns;
+    if (view->caption == t->view.caption && s->kiosk.caption_begun_ns == t->since_ns) return;
+    t->view = *view;
+    t->since_ns = s->kiosk.caption_begun_ns;
+    if (view->caption == GN_KIOSK_CAPTION_NONE && s->rules.caption_ns > 0) return;
+    gn_captions_set_least(t->captions, least_ns);
+    gn_captions_set(t->captions, GN_CAPTION_MODE, change_text(s, view, info), now_ns);
 }
 
 void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view *view,
@@ -205,14 +221,7 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     write_lasting(s, &info, now_ns);
     write_card(s, now_ns);
     write_labels(s, view, now_ns);
-    /* captions of changes: a text is set only when it changes */
-    if (view->caption != t->view.caption || s->kiosk.caption_begun_ns != t->since_ns) {
-        t->view = *view;
-        t->since_ns = s->kiosk.caption_begun_ns;
-        gn_captions_set(t->captions, GN_CAPTION_MODE, change_text(s, view, &info),
-                        now_ns + s->rules.caption_ns -
-                            GN_CAPTION_MODE_NS); /* so that it ends at that time */
-    }
+    write_change(s, view, &info, now_ns);
     write_page(s, view, &info, now_ns);
     f->cover.captions_later = true;
     f->cover.captions =

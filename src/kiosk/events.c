@@ -34,6 +34,7 @@ void gn_show_note(struct gn_show_screen *s, const char *format, ...) {
     va_start(args, format);
     gn_text_vformat(s->viewer.note, sizeof s->viewer.note, format, args);
     va_end(args);
+    s->viewer.note_ns = 0;
     gn_show_send(s,
                  (struct gn_kiosk_event){.kind = GN_KIOSK_NOTE, .caption = GN_KIOSK_CAPTION_NOTE});
     s->changed = true;

@@ -34,6 +34,7 @@ bool gn_show_take_events(struct gn_show_screen *s, struct gn_err *err) {
         gn_split_take_pointer(s, &pointer);
         gn_viewer_take_keys(s, &pointer);
         gn_viewer_set_title(s);
+        gn_viewer_hint(s);
     }
     gn_show_take_moves(s, &pointer);
     gn_show_take_input(s->show, &pointer);

@@ -13,7 +13,8 @@
 #include "options/viewer_keys.h"
 
 static const int64_t HOLD_NS = GN_NS_PER_S / 4; /* an arrow that is down longer turns on */
-static const float STEP = 1.0f / 24;            /* turn by a press, in heights of the window */
+static const int64_t HINT_NS = 4 * GN_NS_PER_S;
+static const float STEP = 1.0f / 24; /* turn by a press, in heights of the window */
 static const float TURN_PER_S = 0.5f;
 
 /* ---- the help page ---- */
@@ -233,6 +234,17 @@ void gn_viewer_take_keys(struct gn_show_screen *s, struct gn_pointer *pointer) {
     if (!v->held || now_ns <= v->turned_ns) return;
     turn(pointer, v->held, TURN_PER_S * (float)((double)(now_ns - v->turned_ns) * 1e-9));
     v->turned_ns = now_ns;
+}
+
+/* Not where a button has the key, and after what else is to be read first. */
+void gn_viewer_hint(struct gn_show_screen *s) {
+    const struct gn_buttons *own = s->show->config.options->buttons;
+    struct gn_show_viewer *v = &s->viewer;
+    if (v->hinted || s->show->reload.first || s->kiosk.seen_ns == 0 || s->kiosk.caption) return;
+    v->hinted = true;
+    if (own && gn_buttons_have_key(own, gn_key_find("h"))) return;
+    gn_show_note(s, "h - keys");
+    v->note_ns = HINT_NS;
 }
 
 int64_t gn_viewer_due_ns(const struct gn_show_screen *s) {

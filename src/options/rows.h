@@ -229,7 +229,7 @@ GN_OPTION(.name = "content", .section = "kiosk", .kind = GN_KIND_PATH, .choices 
 GN_OPTION(.name = "captions", .section = "kiosk", .kind = GN_KIND_FLAG, .fallback = "yes",
           .help = "show the name of a mode when it is entered", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.captions))
 GN_OPTION(.name = "caption-seconds", .section = "kiosk", .kind = GN_KIND_SECONDS, .min = .1, .max = 60, .value = "S", .unit = "seconds",
-          .fallback = "2", .help = "how long a caption is shown", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.caption_ns))
+          .fallback = "2", .help = "how long a caption is shown at least; one of many words is shown for 1 s and .35 s a word", .change = GN_CHANGE_LIVE, .offset = FIELD(kiosk.caption_ns))
 /* when the screen is on */
 GN_OPTION(.name = "hours", .key = "on", .section = "schedule", .kind = GN_KIND_HOURS, .value = "HOURS", .fallback = "always",
           .help = "hours of local time in which the screen is on, as mon-fri 08:00-20:00, sat 10:00-18:00; always on while the clock is not set", .change = GN_CHANGE_RELOAD, .offset = FIELD(schedule.on))

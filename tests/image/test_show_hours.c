@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "caption/fade.h"
 #include "core/clock.h"
 #include "kiosk/private.h"
 #include "kiosk/shift.h"
@@ -51,9 +52,14 @@ static void idle_ends_the_page_at_its_time_and_then_nothing_is_drawn(void **stat
     act(show, GN_ACTION_INFO);
     run_until(show, begun_ns + SECONDS(60) - FRAME_NS);
     assert_true(show->screen.drawn.info);
-    assert_in_range(show->counts.frames - before, 59, 62); /* the page is updated once a second */
+    /* the page is updated once a second, after it has risen */
+    const int rise = 2 * GN_CAPTION_RISE_NS / FRAME_NS, fall = 2 * GN_CAPTION_FALL_NS / FRAME_NS;
+    assert_in_range(show->counts.frames - before, 59 + rise - 1, 62 + rise);
+    before = show->counts.frames;
     run_until(show, begun_ns + SECONDS(60) + FRAME_NS);
     assert_false(show->screen.drawn.info);
+    run_until(show, begun_ns + SECONDS(60) + GN_CAPTION_FALL_NS + 2 * FRAME_NS);
+    assert_in_range(show->counts.frames - before, fall - 1, fall + 3);
     before = show->counts.frames;
     const int steps = run_until(show, begun_ns + SECONDS(8 * 3600));
     assert_int_equal(show->counts.frames, before);
