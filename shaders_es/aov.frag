@@ -4,7 +4,11 @@
 #include "lib/shadow_place.glsl"
 #include "lib/occlusion.glsl"
 
+#ifdef WITH_TRANSPARENT // into a mean: the value itself
+layout(location = 0) out vec4 o_value;
+#else
 layout(location = 0) out uvec4 o_bits;
+#endif
 
 // Visibility from geometry and filter alone: 1 outside of cone and range; a caster whose visible side faces away from the light
 // blocks itself, with FACED any. See lit.frag for the arguments.
@@ -35,6 +39,10 @@ void main() {
         value = vec3(min(occlusion_at(surface_normal()), 1.0));
 #endif
     }
+#ifdef WITH_TRANSPARENT
+    o_value = vec4(value, 1.0);
+#else
     o_bits = floatBitsToUint(vec4(value, 1.0));
+#endif
     surface_cut(surface_base());
 }

@@ -7,13 +7,13 @@
 
 #include "caption/captions.h"
 #include "cli/commands.h"
-#include "cli/hours_picture.h"
 #include "core/arena.h"
 #include "core/clock.h"
 #include "core/terminal.h"
 #include "image/write.h"
 #include "shadow/grey.h"
 #include "stage/gather.h"
+#include "stage/hours_picture.h"
 #include "stage/sun.h"
 
 struct render {

@@ -34,7 +34,8 @@
     X(TONE_AGX, "agx")                                                                             \
     X(CATCHER,                                                                                     \
       "catcher") /* LIT: a shadow catcher: alpha is the share of light that shadows take */        \
-    X(TRANSPARENT, "transparent") /* ENCODE: keeps alpha */                                        \
+    X(TRANSPARENT,                                                                                 \
+      "transparent") /* ENCODE: keeps alpha; AOV: goes into a mean, so it writes floats */         \
     X(ALPHA_DITHER, "dither")     /* DEPTH, DISTANCE, FLAT: a mask with that share of texels */    \
     X(BLENDED_REST, "rest")       /* LIT: leaves out texels that were drawn as opaque ones */      \
     X(ENVIRONMENT, "environment") /* reflects it */                                                \

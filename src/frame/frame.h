@@ -133,10 +133,12 @@ struct gn_frame_opts {
     uint32_t number;   /* as gn_plan.view */
     struct {
         float part, whole;
+        bool sums;
     } gather; /* This picture goes into a mean of some, with the weight `part`, 1: the first; that
                  then into the view's mean, with the weight `whole`, 0: not yet, 1: the first. 0, 0:
-                 it is a picture. Needs rgba16f targets, and a tone that is mapped as surfaces are
-                 drawn: else plan.gathers is false */
+                 it is a picture. sums: the part is their sum, which half floats have exactly where
+                 pictures are 0 or 1. Needs rgba16f targets, and a tone that is mapped as surfaces
+                 are drawn: else plan.gathers is false */
 };
 
 /* How many of the pixels of a side are drawn at that scale; even, as displays want them. */

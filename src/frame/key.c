@@ -199,6 +199,8 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     key.features |= deformation_features(frame->scene, item);
     if (opts->debug.aov != GN_AOV_COLOR && m->double_sided)
         key.features |= GN_FEATURE(DOUBLE_SIDED);
+    if (opts->debug.aov != GN_AOV_COLOR && frame->plan.gathers)
+        key.features |= GN_FEATURE(TRANSPARENT);
     if (opts->debug.aov == GN_AOV_OCCLUSION) key.features |= occlusion_features(frame, item);
     if (opts->debug.aov == GN_AOV_COLOR ? m->unlit : opts->debug.aov != GN_AOV_VISIBILITY)
         return key;

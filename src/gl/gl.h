@@ -141,6 +141,10 @@ void gn_gl_black(struct gn_gl *gl);
  * RGBA floats from GN_OUTPUT_FLOAT or GN_OUTPUT_AOV. The buffer holds width x height x 4. */
 bool gn_gl_read_rgba8(struct gn_gl *gl, uint8_t *out, struct gn_err *err);
 bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err);
+/* The means of a view whose last plan gathers, RGBA, top row first, as large as its pictures: reads
+ * that of a part, and replaces that of all, which other views lay over theirs. */
+bool gn_gl_read_part(struct gn_gl *gl, uint32_t view, float *out, struct gn_err *err);
+bool gn_gl_give_mean(struct gn_gl *gl, uint32_t view, float *rgba, struct gn_err *err);
 /* The same picture as XRGB8888, top row first, `stride` bytes from row to row. */
 bool gn_gl_read_xrgb8888(struct gn_gl *gl, uint8_t *out, size_t stride, struct gn_err *err);
 void gn_gl_finish_frame(struct gn_gl *gl); /* a 1-pixel read-back: ends a timed frame */

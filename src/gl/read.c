@@ -94,6 +94,31 @@ bool gn_gl_read_f32(struct gn_gl *gl, float *out, struct gn_err *err) {
     return gn_gl_error_check(gl, "reading the picture", err);
 }
 
+/* ---- means ---- */
+
+static bool has_means(const struct gn_gl_output *o, struct gn_err *err) {
+    return (o->made && o->gathers) || gn_fail(err, "no mean of pictures is there");
+}
+
+bool gn_gl_read_part(struct gn_gl *gl, uint32_t view, float *out, struct gn_err *err) {
+    const struct gn_gl_output *o = &gl->targets.outputs[view];
+    if (!has_means(o, err)) return false;
+    gn_gl_bind_framebuffer(gl, o->means[1]);
+    gn_gl_read_floats(gl, o->width_px, o->height_px, out);
+    flip_rows(out, 4ul * sizeof *out * o->width_px, o->height_px);
+    return gn_gl_error_check(gl, "reading a mean", err);
+}
+
+bool gn_gl_give_mean(struct gn_gl *gl, uint32_t view, float *rgba, struct gn_err *err) {
+    const struct gn_gl_output *o = &gl->targets.outputs[view];
+    if (!has_means(o, err)) return false;
+    flip_rows(rgba, 4ul * sizeof *rgba * o->width_px, o->height_px);
+    gn_gl_work_on_texture(gl, o->mean_colors[0]);
+    GL(gl, TexSubImage2D)
+    (GL_TEXTURE_2D, 0, 0, 0, (GLsizei)o->width_px, (GLsizei)o->height_px, GL_RGBA, GL_FLOAT, rgba);
+    return gn_gl_error_check(gl, "filling a mean", err);
+}
+
 /* ---- one pixel ---- */
 
 void gn_gl_finish_frame(struct gn_gl *gl) {

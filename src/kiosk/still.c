@@ -2,6 +2,7 @@
 
 #include <cglm/cglm.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/clock.h"
@@ -9,6 +10,7 @@
 #include "kiosk/private.h"
 #include "stage/gather.h"
 #include "stage/occlusion.h"
+#include "stage/sun.h"
 
 static const int64_t REST_NS = GN_NS_PER_S * 3 / 10; /* a view that is so old has come to rest */
 enum { FADE_IN_FRAMES = 30, FADE_OUT_FRAMES = 8 };
@@ -16,22 +18,39 @@ enum { FADE_IN_FRAMES = 30, FADE_OUT_FRAMES = 8 };
 void gn_still_drop(struct gn_show_screen *s) {
     struct gn_show_still *t = &s->still;
     gn_view_close(&t->view, s->stage.gl);
+    gn_sun_gather_finish(&t->sun);
     free(t->aside);
     *t = (struct gn_show_still){.changed_ns = gn_loop_now_ns(s->show->loop)};
 }
 
+static bool shows_hours(const struct gn_show_screen *s) {
+    return s->stage.settings->sun.hours && !isnan(s->stage.shown.opts.view.sun_utc_s) &&
+           gn_stage_sun_moves(s->stage.settings);
+}
+
+static bool is_complete(const struct gn_show_screen *s) {
+    const struct gn_show_still *t = &s->still;
+    return shows_hours(s) ? t->painted && t->sun.painted == t->sun.hours.count
+                          : t->points == GN_STILL_POINTS;
+}
+
+/* The mean may be seen. */
+static bool has_mean(const struct gn_show_screen *s) {
+    return s->still.painted || s->still.points == GN_STILL_POINTS;
+}
+
 bool gn_still_wants_frame(const struct gn_show_screen *s) {
     const struct gn_show_still *t = &s->still;
-    return t->points == GN_STILL_POINTS ? t->share < 1.0f : t->share > 0.0f;
+    return has_mean(s) ? t->share < 1.0f : t->share > 0.0f;
 }
 
 static bool may_gather(const struct gn_show_screen *s) {
     const struct gn_show_still *t = &s->still;
     const struct gn_frame_opts *opts = &s->stage.shown.opts;
     const struct gn_screen *screen = &s->stage.display.screen;
-    if (s->stage.settings->render.gather == GN_GATHER_NONE || !s->stage.gl || t->never)
-        return false;
-    if (t->points == GN_STILL_POINTS || t->share > 0.0f || !s->stage.shown.builder) return false;
+    const bool wanted = shows_hours(s) || s->stage.settings->render.gather != GN_GATHER_NONE;
+    if (!wanted || !s->stage.gl || t->never || is_complete(s)) return false;
+    if ((t->share > 0.0f && !t->painted) || !s->stage.shown.builder) return false;
     if (!screen->may_draw || !screen->lit || screen->black || s->drawn.dark) return false;
     if (s->truth.on || s->split.on || s->staged.loaded || gn_kiosk_waits(&s->kiosk)) return false;
     return opts->debug.aov == GN_AOV_COLOR && !opts->debug.show_maps && !opts->debug.show_lights &&
@@ -69,11 +88,47 @@ static bool warm(struct gn_show_screen *s, struct gn_view *view, const struct gn
     }
 }
 
-/* The picture, its depth and two means take at most a sixteenth of the machine's memory. */
-static bool has_room(const struct gn_frame_output_opts *output) {
+/* The picture, its depth and two means take at most a sixteenth of the machine's memory; hours of
+ * sun, which are asked for, an eighth. */
+static bool can_gather(const struct gn_show_screen *s) {
     enum { BYTES = 3 * 8 + 4 };
-    const uint64_t pixels = (uint64_t)output->width_px * output->height_px;
-    return BYTES * pixels <= (gn_memory_total_mb() << 20) / 16;
+    const struct gn_frame_output_opts *output = &s->stage.shown.opts.output;
+    const uint64_t pixels = (uint64_t)output->width_px * output->height_px,
+                   memory = gn_memory_total_mb() << 20;
+    const bool room =
+        shows_hours(s) ? GN_SUN_GATHER_BYTES * pixels <= memory / 8 : BYTES * pixels <= memory / 16;
+    return room && gn_gl_caps(s->stage.gl)->has & 1u << GN_CAP_RGBA16F;
+}
+
+/* Its programs: of surfaces, of what they see, and of the picture that this lies over. */
+static bool warm_hours(struct gn_show_screen *s, const struct gn_frame_opts *over) {
+    static const enum gn_sun_look looks[] = {GN_SUN_NORMAL, GN_SUN_VISIBILITY};
+    struct gn_show_still *t = &s->still;
+    for (int i = 0; i < 2; i++) {
+        gn_sun_gather_share(&t->sun, &t->view, &s->stage.shown, looks[i]);
+        if (!warm(s, &t->view, &t->view.opts)) return false;
+    }
+    return warm(s, &s->stage.shown, over);
+}
+
+static void fail_hours(struct gn_show_screen *s, const struct gn_err *err) {
+    s->still.never = true;
+    fprintf(stderr, "gnomon: warning: %s\n", err->text);
+    gn_show_note(s, "Hours of sun: not here");
+}
+
+static void prepare_hours(struct gn_show_screen *s, const struct gn_frame_opts *over) {
+    struct gn_show_still *t = &s->still;
+    struct gn_err err = {0};
+    bool ok = can_gather(s) || gn_fail(&err, "hours of sun: this GPU has no half floats, or the "
+                                             "machine too little memory for so many pixels");
+    if (ok && !t->sun.hours.count)
+        ok = gn_sun_hours_build_day(&t->sun.hours, s->stage.settings, s->stage.scene,
+                                    over->view.sun_utc_s, &err);
+    if (ok && !warm_hours(s, over)) return;
+    t->prepared = ok && gn_sun_gather_begin(&t->sun, &t->view, &s->stage.shown, s->stage.settings,
+                                            s->stage.gl, &err);
+    if (!t->prepared) fail_hours(s, &err);
 }
 
 /* The lights are at their places here: the exposure is chosen by the first plan. */
@@ -82,16 +137,31 @@ static void prepare(struct gn_show_screen *s) {
     struct gn_frame_opts over = s->stage.shown.opts;
     over.cover.mean = 1.0f;
     over.cover.mean_of = GN_VIEW_STILL;
-    if (!(gn_gl_caps(s->stage.gl)->has & 1u << GN_CAP_RGBA16F) || !has_room(&over.output) ||
-        !share_shown(s))
+    if (shows_hours(s))
+        prepare_hours(s, &over);
+    else if (!can_gather(s) || !share_shown(s))
         t->never = true;
     else
         t->prepared = warm(s, &t->view, &t->view.opts) && warm(s, &s->stage.shown, &over);
     if (t->prepared || t->never) gn_gl_warm_end(s->stage.gl);
 }
 
+static bool add_position(struct gn_show_screen *s) {
+    struct gn_show_still *t = &s->still;
+    struct gn_err err = {0};
+    bool ok = gn_sun_gather_add(&t->sun, &t->view, &s->stage.shown, s->stage.gl, &err);
+    if (ok && gn_sun_gather_may_paint(&t->sun)) {
+        ok = gn_sun_gather_paint(&t->sun, &t->view, s->stage.settings, s->stage.gl,
+                                 s->show->warnings, &err);
+        t->painted = s->changed = ok;
+    }
+    if (!ok) fail_hours(s, &err);
+    return ok;
+}
+
 static bool add_point(struct gn_show_screen *s) {
     struct gn_show_still *t = &s->still;
+    if (shows_hours(s)) return add_position(s);
     return gn_gather_add(&t->view, &t->aside, &s->stage.shown, point_of(t), s->stage.gl);
 }
 
@@ -107,9 +177,10 @@ void gn_still_step(struct gn_show_screen *s) {
     }
     do {
         t->never = !add_point(s);
-        t->points += !t->never;
+        t->points += !t->never && !shows_hours(s);
         gn_gl_finish_frame(s->stage.gl); /* nothing queues up that a button would wait for */
-    } while (!t->never && t->points < GN_STILL_POINTS && gn_loop_now_ns(s->show->loop) < until_ns);
+    } while (!t->never && !is_complete(s) && !s->changed &&
+             gn_loop_now_ns(s->show->loop) < until_ns);
 }
 
 /* ---- frames ---- */
@@ -120,18 +191,19 @@ static void begin_anew(struct gn_show_screen *s) {
     t->generation = s->stage.shown.generation;
     t->changed_ns = gn_loop_now_ns(s->show->loop);
     t->points = 0;
-    t->prepared = t->never = false;
+    t->prepared = t->never = t->painted = false;
+    gn_sun_gather_finish(&t->sun);
 }
 
 void gn_still_lay_over(struct gn_show_screen *s, int64_t time_ns, bool cut) {
     struct gn_show_still *t = &s->still;
     struct gn_view *view = &s->stage.shown;
     view->opts.cover.mean = 0.0f;
-    if (t->share <= 0.0f && t->points < GN_STILL_POINTS) return;
+    if (t->share <= 0.0f && !has_mean(s)) return;
     gn_view_pose(view, s->stage.settings, time_ns);
     const bool ends = cut || s->split.on || s->truth.on;
     if (t->generation != view->generation || ends) begin_anew(s);
-    t->share += t->points == GN_STILL_POINTS ? 1.0f / FADE_IN_FRAMES : -1.0f / FADE_OUT_FRAMES;
+    t->share += has_mean(s) ? 1.0f / FADE_IN_FRAMES : -1.0f / FADE_OUT_FRAMES;
     t->share = ends ? 0.0f : glm_clamp(t->share, 0.0f, 1.0f);
     view->opts.cover.mean = t->share;
     view->opts.cover.mean_of = GN_VIEW_STILL;
@@ -140,5 +212,6 @@ void gn_still_lay_over(struct gn_show_screen *s, int64_t time_ns, bool cut) {
 void gn_still_follow(struct gn_show_screen *s) {
     struct gn_show_still *t = &s->still;
     if (t->generation != s->stage.shown.generation) begin_anew(s);
-    if (t->points == 0 && t->share <= 0.0f && t->view.builder) gn_view_close(&t->view, s->stage.gl);
+    if (t->points == 0 && !t->sun.drawn && t->share <= 0.0f && t->view.builder)
+        gn_view_close(&t->view, s->stage.gl);
 }

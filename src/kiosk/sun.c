@@ -77,6 +77,13 @@ static void look_for_clock(struct sun *sun, const struct gn_settings *o, int64_t
     if (unset) sun->timer.due_ns = now_ns + 10 * GN_NS_PER_S;
 }
 
+/* Hours of sun are of the whole day, and the picture below them has one sun: that of its noon. */
+static double of_day(const struct gn_settings *o, double utc_s) {
+    struct gn_place place;
+    if (!o->sun.hours || !gn_stage_sun_place(o, &place)) return utc_s;
+    return floor(gn_sun_day(utc_s, &place).noon_s);
+}
+
 static void follow(void *user, int64_t now_ns) {
     struct sun *sun = user;
     const struct gn_settings *o = *sun->host->settings;
@@ -88,6 +95,7 @@ static void follow(void *user, int64_t now_ns) {
         utc_s = fmin(fmax(find_moment(sun, o, now_ns, &left_s) + (double)sun->ahead_s, FIRST_S),
                      LAST_S);
     sun->of = o;
+    if (!isnan(utc_s)) utc_s = of_day(o, utc_s);
     *sun->host->changed |= !isnan(utc_s) && utc_s != sun->utc_s;
     sun->utc_s = utc_s;
     gn_stage_sun_print(o, utc_s, sun->text, sizeof sun->text);

@@ -152,6 +152,8 @@ GN_OPTION(.name = "sun-turbidity", .key = "turbidity", .section = "sun", .kind =
           .help = "haze of the air, by which a low sun is weak and red: 2 is very clear, 3 clear, 6 hazy", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.turbidity))
 GN_OPTION(.name = "sun-caption", .key = "caption", .section = "sun", .kind = GN_KIND_FLAG,
           .help = "write the date and the time under the picture: by the clock of time_zone, and by the sun at the place, as a sundial has it", .commands = KIOSK | BIT(RENDER), .change = GN_CHANGE_LIVE, .offset = FIELD(sun.caption))
+GN_OPTION(.name = "sun-hours", .key = "hours", .section = "sun", .kind = GN_KIND_FLAG,
+          .help = "show in false colours with a scale for how many hours of the day each surface sees the sun; they are gathered over some seconds while scene and camera stand, and until then the picture has the sun of noon", .commands = KIOSK, .change = GN_CHANGE_LIVE, .offset = FIELD(sun.hours))
 /* the camera's place in place of its own; orbits are as in model-viewer */
 GN_OPTION(.name = "camera-theta", .key = "theta", .section = "camera", .kind = GN_KIND_EV, .min = -360, .max = 360, .value = "auto|DEG", .unit = "degrees", .fallback = "auto",
           .help = "side from which the camera looks at its target: 0 from the front (+Z), 90 from +X; auto: as the camera stands", .commands = DRAW, .change = GN_CHANGE_LIVE, .offset = FIELD(camera.theta_deg))

@@ -158,6 +158,7 @@ struct gn_sun_settings {
     double azimuth_deg, altitude_deg; /* NAN: by place and date */
     double turbidity;
     bool caption; /* of the moment */
+    bool hours;   /* of sun, in false colours */
 };
 struct gn_display_settings {
     const char *backend, *card, *render_node, *connector;

@@ -97,6 +97,9 @@ static void warn_of_light(const struct gn_scene *scene, int light, struct gn_war
 bool gn_stage_sun_start(struct gn_frame_opts *opts, const struct gn_settings *settings,
                         const struct gn_scene *scene, struct gn_warnings *warnings,
                         struct gn_err *err) {
+    if (settings->sun.hours && !depends_on_time(settings))
+        gn_warn(warnings, "sun: hours are those of a place and a day: give latitude and longitude, "
+                          "and leave out azimuth or altitude");
     if (!gn_stage_sun_is_set(settings)) return true;
     const int light = gn_stage_sun_light(scene);
     warn_of_light(scene, light, warnings);

@@ -2,6 +2,7 @@
 
 #include <cglm/cglm.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "core/sun.h"
@@ -51,14 +52,10 @@ static bool find_moments(struct gn_sun_hours *h, const struct gn_settings *o, st
 }
 
 /* From sunrise to sunset; 12 hours before and after noon where there is none. */
-static bool find_day(struct gn_sun_hours *h, const struct gn_settings *o,
-                     const struct gn_place *place, struct gn_err *err) {
-    double utc_s;
-    if (!gn_stage_sun_moment(o, o->sun.date, &utc_s, err)) return false;
+static void find_day(struct gn_sun_hours *h, const struct gn_place *place, double utc_s) {
     const struct gn_sun_day day = gn_sun_day(utc_s, place);
     h->begin_s = isnan(day.rise_s) ? day.noon_s - DAY_S / 2 : day.rise_s;
     h->end_s = isnan(day.set_s) ? day.noon_s + DAY_S / 2 : day.set_s;
-    return true;
 }
 
 /* ---- the sun's positions ---- */
@@ -78,28 +75,71 @@ static void add_position(struct gn_sun_hours *h, uint32_t i, const struct gn_pla
                      h->to_ws[h->count++]);
 }
 
-bool gn_sun_hours_build(struct gn_sun_hours *h, const struct gn_settings *settings,
-                        const struct gn_scene *scene, struct gn_err *err) {
+/* when: for the message, as "on 2026-12-21". */
+static bool add_positions(struct gn_sun_hours *h, const struct gn_scene *scene,
+                          const struct gn_place *place, const char *when, struct gn_err *err) {
     const int light = gn_stage_sun_light(scene);
-    const char *from = settings->run.from;
-    struct gn_place place;
-    *h = (struct gn_sun_hours){.light = (uint32_t)light};
-    if (!check_settings(settings, &place, err)) return false;
-    if (!(from ? find_moments(h, settings, err) : find_day(h, settings, &place, err))) return false;
     if (light < 0)
-        return gn_fail(err, "--aov sun-hours: the scene has lights, but no directional one that "
+        return gn_fail(err, "hours of sun: the scene has lights, but no directional one that "
                             "can be the sun");
+    h->light = (uint32_t)light;
     h->step_h = (h->end_s - h->begin_s) / 3600 / GN_SUN_POSITIONS;
     for (uint32_t i = 0; i < GN_SUN_POSITIONS; i++)
-        add_position(h, i, &place, (double)scene->environment.north_deg);
+        add_position(h, i, place, (double)scene->environment.north_deg);
     return h->count > 0 ||
-           gn_fail(err, "--aov sun-hours: at %.2f, %.2f the sun stays below the horizon %s %s%s%s",
-                   place.latitude_deg, place.longitude_deg, from ? "from" : "on",
-                   from ? from : settings->sun.date, from ? " to " : "",
-                   from ? settings->run.to : "");
+           gn_fail(err, "hours of sun: at %.2f, %.2f the sun stays below the horizon %s",
+                   place->latitude_deg, place->longitude_deg, when);
+}
+
+bool gn_sun_hours_build(struct gn_sun_hours *h, const struct gn_settings *settings,
+                        const struct gn_scene *scene, struct gn_err *err) {
+    const char *from = settings->run.from;
+    struct gn_place place;
+    double utc_s;
+    char when[100];
+    *h = (struct gn_sun_hours){0};
+    if (!check_settings(settings, &place, err)) return false;
+    if (from ? !find_moments(h, settings, err)
+             : !gn_stage_sun_moment(settings, settings->sun.date, &utc_s, err))
+        return false;
+    if (!from) find_day(h, &place, utc_s);
+    if (from)
+        snprintf(when, sizeof when, "from %.40s to %.40s", from, settings->run.to);
+    else
+        snprintf(when, sizeof when, "on %.40s", settings->sun.date);
+    return add_positions(h, scene, &place, when, err);
+}
+
+bool gn_sun_hours_build_day(struct gn_sun_hours *h, const struct gn_settings *settings,
+                            const struct gn_scene *scene, double utc_s, struct gn_err *err) {
+    struct gn_place place;
+    *h = (struct gn_sun_hours){0};
+    if (!gn_stage_sun_place(settings, &place))
+        return gn_fail_usage(err, "hours of sun: no place: add latitude and longitude of [sun]");
+    find_day(h, &place, utc_s);
+    return add_positions(h, scene, &place, "that day", err);
 }
 
 /* ---- a picture of them ---- */
+
+void gn_sun_hours_look(struct gn_frame_opts *opts, uint32_t light, enum gn_sun_look look) {
+    struct gn_light_opts *own = gn_stage_light_entry(&opts->shadow, light);
+    opts->output.msaa = 0;
+    opts->cover = (struct gn_frame_cover_opts){0};
+    opts->detail = (struct gn_frame_detail_opts){0};
+    opts->debug.aov = (enum gn_aov)look;
+    opts->debug.light = (int)light;
+    opts->debug.faced = true;
+    if (!own) return;
+    GN_LIGHT_SET(own, technique, GN_TECHNIQUE_HARD);
+    GN_LIGHT_SET(own, map_format, GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
+}
+
+void gn_sun_hours_aim(const struct gn_sun_hours *h, struct gn_pose *pose, uint32_t position) {
+    vec3 along;
+    glm_vec3_negate_to((float *)h->to_ws[position], along);
+    gn_pose_aim(pose, h->light, along);
+}
 
 struct drawing {
     struct gn_stage *stage;
@@ -108,8 +148,9 @@ struct drawing {
     struct gn_err *err;
 };
 
-static const struct gn_plan *draw(struct drawing *d, enum gn_aov aov, float *rgba) {
-    d->view.opts.debug.aov = aov;
+static const struct gn_plan *draw(struct drawing *d, const struct gn_sun_hours *h,
+                                  enum gn_sun_look look, float *rgba) {
+    gn_sun_hours_look(&d->view.opts, h->light, look);
     const struct gn_plan *plan = gn_view_plan(&d->view, d->stage->gl, d->warnings, d->err);
     return plan && gn_gl_run(d->stage->gl, plan, NULL, d->err) &&
                    gn_gl_read_f32(d->stage->gl, rgba, d->err)
@@ -120,10 +161,8 @@ static const struct gn_plan *draw(struct drawing *d, enum gn_aov aov, float *rgb
 static bool add_maps(struct drawing *d, const struct gn_sun_hours *h, size_t pixels, float *rgba,
                      struct gn_sun_hours_picture *out) {
     for (uint32_t i = 0; i < h->count; i++) {
-        vec3 along;
-        glm_vec3_negate_to((float *)h->to_ws[i], along);
-        gn_pose_aim(d->view.pose, h->light, along);
-        if (!draw(d, GN_AOV_VISIBILITY, rgba)) return false;
+        gn_sun_hours_aim(h, d->view.pose, i);
+        if (!draw(d, h, GN_SUN_VISIBILITY, rgba)) return false;
         for (size_t k = 0; k < pixels; k++) out->hours[k] += rgba[4 * k];
         if (d->stage->truth.progress)
             d->stage->truth.progress(d->stage->truth.user, (double)(i + 1) / h->count);
@@ -141,18 +180,6 @@ static void finish_sums(const struct gn_sun_hours *h, size_t pixels, bool is_cas
     }
 }
 
-static void set_look(struct gn_frame_opts *opts, uint32_t light) {
-    struct gn_light_opts *own = gn_stage_light_entry(&opts->shadow, light);
-    opts->output.msaa = 0;
-    opts->cover = (struct gn_frame_cover_opts){0};
-    opts->detail = (struct gn_frame_detail_opts){0};
-    opts->debug.light = (int)light;
-    opts->debug.faced = true;
-    if (!own) return;
-    GN_LIGHT_SET(own, technique, GN_TECHNIQUE_HARD);
-    GN_LIGHT_SET(own, map_format, GN_MAP_FORMAT(GN_ENCODING_AUTO, GN_MOMENTS_NONE));
-}
-
 bool gn_sun_hours_draw(const struct gn_sun_hours *h, struct gn_stage *stage, int64_t time_ns,
                        struct gn_sun_hours_picture *out, struct gn_warnings *warnings,
                        struct gn_err *err) {
@@ -167,8 +194,7 @@ bool gn_sun_hours_draw(const struct gn_sun_hours *h, struct gn_stage *stage, int
     if (ok) {
         gn_view_pose(&stage->shown, stage->settings, time_ns);
         gn_view_share(&d.view, GN_VIEW_STILL, &stage->shown, &stage->shown.opts);
-        set_look(&d.view.opts, h->light);
-        const struct gn_plan *plan = draw(&d, GN_AOV_NORMAL, *out->normal_ws);
+        const struct gn_plan *plan = draw(&d, h, GN_SUN_NORMAL, *out->normal_ws);
         ok = plan &&
              (casts ? gn_stage_cast_sun(stage, &d.view, plan, h->to_ws, h->count, out->hours, err)
                     : add_maps(&d, h, pixels, rgba, out));

@@ -23,6 +23,16 @@ struct gn_sun_hours {
 bool gn_sun_hours_build(struct gn_sun_hours *hours, const struct gn_settings *settings,
                         const struct gn_scene *scene, struct gn_err *err);
 
+/* The same of the day, by the place's sun, that a moment is in. */
+bool gn_sun_hours_build_day(struct gn_sun_hours *hours, const struct gn_settings *settings,
+                            const struct gn_scene *scene, double utc_s, struct gn_err *err);
+
+/* Gives a view the options to draw that, of the light that is the sun. */
+enum gn_sun_look { GN_SUN_VISIBILITY = GN_AOV_VISIBILITY, GN_SUN_NORMAL = GN_AOV_NORMAL };
+void gn_sun_hours_look(struct gn_frame_opts *opts, uint32_t light, enum gn_sun_look look);
+/* Turns the light to the position at that place in the list. */
+void gn_sun_hours_aim(const struct gn_sun_hours *hours, struct gn_pose *pose, uint32_t position);
+
 /* What is seen on a picture of the stage's shown view; row 0 on top. */
 struct gn_sun_hours_picture {
     float *hours;          /* for each pixel; GN_SUN_HOURS_NONE: there is no surface */

@@ -1,4 +1,4 @@
-#include "cli/hours_picture.h"
+#include "stage/hours_picture.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,6 +8,7 @@
 #include "caption/atlas.h"
 #include "caption/layout.h"
 #include "core/arena.h"
+#include "options/date.h"
 #include "stage/sun.h"
 
 /* ---- bands ---- */
@@ -115,8 +116,9 @@ static void build_legend(struct legend *l, const struct gn_sun_hours *hours,
     gn_stage_sun_place(o, &place);
     *l = (struct legend){.count = 0};
     add_line(l, "Hours of direct sun");
-    snprintf(text, sizeof text, "%.40s%s", o->run.from ? o->run.from : o->sun.date,
-             o->run.from ? " to" : "");
+    gn_date_print((hours->begin_s + hours->end_s) / 2, o->sun.time_zone, text, sizeof text);
+    text[strcspn(text, ",")] = '\0'; /* the day alone */
+    if (o->run.from) snprintf(text, sizeof text, "%.40s to", o->run.from);
     add_line(l, text);
     if (o->run.from) add_line(l, o->run.to);
     snprintf(text, sizeof text, "%.2f\u00b0 %c, %.2f\u00b0 %c", fabs(place.latitude_deg),

@@ -1,6 +1,6 @@
 /* Hours of sun as a picture in false colours, with a legend. */
-#ifndef GN_CLI_HOURS_PICTURE_H
-#define GN_CLI_HOURS_PICTURE_H
+#ifndef GN_STAGE_HOURS_PICTURE_H
+#define GN_STAGE_HOURS_PICTURE_H
 
 #include "stage/sun_hours.h"
 
