@@ -10,5 +10,6 @@ void main() {
     vec3 color = texelFetch(u_map_0, ivec2(gl_FragCoord.xy), 0).rgb;
     color = min(color, u_pass[MEAN_SHARE].y);
     if (ENCODE_SRGB) color = srgb_from_linear(color);
-    o_color = vec4(color * u_pass[MEAN_SHARE].x, u_pass[MEAN_SHARE].z); // z: how much of what is there goes; of a sum none
+    float share = u_pass[MEAN_SHARE].x;
+    o_color = vec4(color * share, ADDITIVE ? 0.0 : share);
 }

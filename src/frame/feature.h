@@ -25,7 +25,8 @@
                                            direction */                                            \
     X(FLAT_CONSTANTS, "flat-constants") /* software drivers: the first light's constants come as   \
                                            flat varyings */                                        \
-    X(ADDITIVE, "additive") /* LIT: light alone, to be added: no ambient, emission, alpha */       \
+    X(ADDITIVE,                                                                                    \
+      "additive") /* LIT: light alone, to be added: no ambient, emission, alpha; MEAN: a sum */    \
     X(SHADOW_SPECULAR, "shadow-specular") /* shadows leave a share of highlights of their own */   \
     X(REFLECTANCE, "f0")                  /* its reflectance is not that of an IOR of 1.5 */       \
     X(METAL, "metal")                     /* the material may be a metal in places */              \

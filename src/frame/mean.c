@@ -11,14 +11,15 @@ static struct gn_pass *add_pass(struct gn_frame *frame, const char *label, uint3
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     float(*c)[4] =
         gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_MEAN) + set * MEAN_SIZE;
+    adds = adds && share < 1.0f; /* the first one of a sum replaces what is there */
     c[MEAN_SHARE][0] = adds ? 1.0f : share;
     c[MEAN_SHARE][1] = most;
-    c[MEAN_SHARE][2] = adds ? 0.0f : share;
-    pass->picture.blend = share < 1.0f ? GN_BLEND_ALPHA : GN_BLEND_OFF;
+    pass->picture.blend = adds ? GN_BLEND_ADD : share < 1.0f ? GN_BLEND_ALPHA : GN_BLEND_OFF;
     pass->depth_write = false;
     pass->constants = c;
     pass->constant_count = MEAN_SIZE;
-    if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
+    if (frame->plan.encode_srgb) key.features |= GN_FEATURE(ENCODE_SRGB);
+    if (adds) key.features |= GN_FEATURE(ADDITIVE);
     gn_frame_draw_bare(frame, &key, 3, 0, 1);
     gn_frame_end_pass(frame);
     return pass;
