@@ -92,6 +92,7 @@ static const char *mode_of(const struct gn_show *show) {
 static void read_picture(struct gn_show *show, uint8_t out[4 * PIXELS]) {
     struct gn_err err = {0};
     show->screen.kiosk.caption = GN_KIOSK_CAPTION_NONE;
+    gn_captions_set(show->screen.text.captions, GN_CAPTION_MODE, NULL, 0); /* it need not fall */
     until_shown(show);
     if (!gn_gl_read_rgba8(show->screen.stage.gl, out, &err)) fail_msg("%s", err.text);
 }
