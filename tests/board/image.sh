@@ -41,11 +41,13 @@ switch_off() {
 }
 trap 'switch_off; rm -f "$out"/monitor.* "$card"' EXIT
 tell() { echo "$1" >&3 && sleep "${2:-1}"; }
-# a picture has many colours; texts of a firmware or a console have few
+# a picture of the scenes here has many colours; texts of a firmware or a console have few
 picture() {
     tell "screendump $1.ppm" 2
     [ -s "$1.ppm" ] && [ "$(tail -c +16 "$1.ppm" | xxd -p -c 3 | sort -u | wc -l)" -gt 1000 ]
 }
+# differ A B: most of their bytes do; what a clip moves are fewer
+differ() { [ "$(cmp -l "$out/$1.ppm" "$out/$2.ppm" | wc -l)" -gt 460000 ]; }
 cpu_s() { read -ra stat < "/proc/$machine/stat" && echo $(((stat[13] + stat[14]) / hz)); }
 # wait_for_picture NAME: processor seconds of the machine are what count, since the host may be busy
 wait_for_picture() {
@@ -63,6 +65,7 @@ written() {
 mapfile -t starts < <(sfdisk --json "$image" | sed -n 's/.*"start": *\([0-9]*\).*/\1/p') # in sectors of 512 bytes
 root_mb=$((starts[1] / 2048)) data_mb=$((starts[2] / 2048))
 root_bytes() { sha256sum < <(dd if="$card" bs=1M skip=$root_mb count=$((data_mb - root_mb)) status=none); }
+bytes_before_data() { sha256sum < <(dd if="$card" bs=1M count=$data_mb status=none); }
 # the data partition, which a start repairs if power was cut
 data_is_whole() {
     dd if="$card" of="$out/data.ext4" bs=1M skip=$data_mb conv=sparse status=none
@@ -79,8 +82,10 @@ before=$(root_bytes)
 switch_on
 wait_for_picture first
 sleep 20
-from=$(written) && sleep "${STILL:-60}"
+from=$(written) standing=$(bytes_before_data)
+sleep "${STILL:-60}"
 echo "written in ${STILL:-60} s: $(($(written) - from)) bytes"
+[ "$standing" = "$(bytes_before_data)" ] || complain 'what is not the data partition was written to while a picture stood'
 switch_off
 [ "$before" = "$(root_bytes)" ] || complain 'the root was written to'
 grown_mb=$(($(sfdisk --json "$card" | sed -n 's/.*"size": *\([0-9]*\).*/\1/p' | tail -n 1) / 2048))
@@ -101,7 +106,7 @@ seen() {
     switch_off
 }
 fat mdel ::gnomon/scene.glb
-fat mcopy "$O/selftest/lattice.glb" ::gnomon/new.glb
+fat mcopy assets/bench/yard.glb ::gnomon/new.glb
 printf 'timezone = Europe/Nowhere\r\ncolour = red\r\nwifi = there\r\npassword = short\r\nssh_key = none\r\n' > "$out/board.ini"
 fat mcopy -o "$out/board.ini" ::board.ini
 seen new 'was taken over'
@@ -109,11 +114,12 @@ fat mtype ::board-problem.txt > "$out/problem.txt" 2> /dev/null || complain 'no 
 for text in Europe/Nowhere 'colour = red' '8 to 63' 'no public key'; do
     grep -qF "$text" "$out/problem.txt" || complain "board-problem.txt does not say $text"
 done
-head -c 300 "$O/selftest/lattice.glb" > "$out/broken.glb"
+head -c 300 assets/bench/yard.glb > "$out/broken.glb"
 fat mdel ::gnomon/new.glb
 fat mcopy "$out/broken.glb" ::gnomon/broken.glb
 fat mcopy -o board/image/board.ini ::board.ini
 seen broken 'NOT taken over'
+differ first broken || complain 'the new model is not shown at the next start'
 ! fat mtype ::board-problem.txt > /dev/null 2>&1 || complain 'board-problem.txt stays although all is right'
 
 # ---- power cut ---------------------------------------------------------------------------------------------
