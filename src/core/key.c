@@ -25,7 +25,8 @@ static const char *const names[GN_KEY_COUNT] = {
     "btn_9", [272] = "btn_left", "btn_right", "btn_middle", [288] = "btn_trigger",
     [304] = "btn_south", "btn_east", [307] = "btn_north", "btn_west", [352] = "ok", "select",
     [358] = "info", [398] = "red", "green", "yellow", "blue", "channelup", "channeldown",
-    [407] = "next", "restart", "slow", [412] = "previous", [GN_KEY_TAP] = "tap",
+    [407] = "next", "restart", "slow", [412] = "previous", [GN_KEY_KNOB_LEFT] = "knob_left",
+    "knob_right", [GN_KEY_TAP] = "tap",
 };
 /* clang-format on */
 

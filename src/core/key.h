@@ -26,7 +26,10 @@ enum gn_key { /* keys that the code names; the table in key.c has more */
               GN_KEY_END = 107,
               GN_KEY_DOWN = 108,
               GN_KEY_PAGEDOWN = 109,
-              GN_KEY_TAP = 767,   /* of a touch screen or a mouse; no kernel has a key there */
+              /* no kernel has keys there: a click of a knob, a tap of a touch screen or a mouse */
+              GN_KEY_KNOB_LEFT = 765,
+              GN_KEY_KNOB_RIGHT = 766,
+              GN_KEY_TAP = 767,
               GN_KEY_COUNT = 768, /* numbers are below */
 };
 

@@ -62,6 +62,7 @@ static void add_device(struct gn_devices *devices, const char *path, int64_t now
     *d = (struct gn_device){.fd = found.fd, .all = devices};
     snprintf(d->path, sizeof d->path, "%s", path);
     memcpy(d->has, found.has, sizeof d->has);
+    d->is_knob = found.is_knob;
     if (found.touch.kind == GN_TOUCH_SCREEN) found.touch.rotate_deg = devices->touch_rotate_deg;
     if (found.touch.kind) gn_touch_init(&d->touch, &found.touch);
     d->watch = (struct gn_watch){.fd = d->fd, .events = EPOLLIN, .call = on_readable, .user = d};
@@ -112,6 +113,15 @@ int gn_devices_pointers(const struct gn_devices *devices) {
 
 /* ---- reading devices ----------------------------------------------------------------------- */
 
+/* Clicks of a knob at once, of a high-resolution one none: those come as clicks, too. */
+static void turn_knob(struct gn_devices *devices, unsigned axis, int32_t clicks, int64_t time_ns) {
+    enum { MOST = 64 };
+    const unsigned key = clicks < 0 ? GN_KEY_KNOB_LEFT : GN_KEY_KNOB_RIGHT;
+    if (axis == REL_WHEEL_HI_RES || axis == REL_HWHEEL_HI_RES) return;
+    const int64_t count = clicks < 0 ? -(int64_t)clicks : clicks;
+    for (int64_t i = 0; i < count && i < MOST; i++) gn_keys_click(devices->keys, key, time_ns);
+}
+
 static void take_event(struct gn_devices *devices, struct gn_device *d, const struct input_event *e,
                        int64_t time_ns) {
     if (e->type == EV_SYN && e->code == SYN_DROPPED) d->dropped = true;
@@ -123,6 +133,7 @@ static void take_event(struct gn_devices *devices, struct gn_device *d, const st
     const bool repeats = e->type == EV_KEY && (e->value < 0 || e->value > 1); /* autorepeat */
     if (d->dropped || repeats) return;
     if (e->type == EV_KEY) gn_keys_set(devices->keys, &d->keys, e->code, e->value, time_ns);
+    if (e->type == EV_REL && d->is_knob) turn_knob(devices, e->code, e->value, time_ns);
     if (!d->touch.opts.kind) return;
     const bool taps = gn_touch_event(&d->touch, e->type, e->code, e->value, time_ns);
     if (devices->suppresses_taps)

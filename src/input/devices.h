@@ -1,6 +1,7 @@
-/* The kernel's input devices (evdev): keys of keyboards, remote controls, gpio-keys; touch screens
- * and mice. Only devices with a bound key or a wanted pointer are opened, and only what is wanted
- * of them wakes us; none is grabbed, so a power key keeps its function. */
+/* The kernel's input devices (evdev): keys of keyboards, remote controls, gpio-keys; knobs, whose
+ * clicks are the keys "knob_left" and "knob_right"; touch screens and mice. Only devices with a
+ * bound key or a wanted pointer are opened, and only what is wanted of them wakes us; none is
+ * grabbed, so a power key keeps its function. */
 #ifndef GN_INPUT_DEVICES_H
 #define GN_INPUT_DEVICES_H
 
@@ -20,6 +21,7 @@ struct gn_evdev_found {
     int fd;
     uint8_t has[GN_KEY_BYTES];  /* all keys of the device */
     struct gn_touch_opts touch; /* kind GN_TOUCH_NONE: no pointer, or not wanted */
+    bool is_knob;               /* and one is bound: `has` has its two keys */
     char name[80];
 };
 struct gn_evdev_ops { /* each returns 0 or an errno value */
@@ -42,6 +44,7 @@ struct gn_device {
     char path[64];
     bool dropped; /* SYN_DROPPED: events are invalid until the next report */
     uint8_t has[GN_KEY_BYTES];
+    bool is_knob;
     struct gn_key_source keys;
     struct gn_touch touch; /* zeroed: it is none */
 };

@@ -51,7 +51,8 @@ static void set_mask(int fd, uint32_t type, const uint8_t *bits, uint32_t size) 
 }
 
 /* Only what is wanted wakes us: not typing, a pressure, or a pointer that is not wanted. */
-static void set_masks(int fd, const uint8_t *bound, const struct gn_touch_opts *touch) {
+static void set_masks(int fd, const uint8_t *bound, const struct gn_evdev_found *found) {
+    const struct gn_touch_opts *touch = &found->touch;
     struct gn_touch_abilities want = {0};
     uint8_t types[EV_CNT / 8] = {0};
     const enum gn_touch_kind kind = touch->kind;
@@ -75,10 +76,11 @@ static void set_masks(int fd, const uint8_t *bound, const struct gn_touch_opts *
         put(want.abs, ABS_X);
         put(want.abs, ABS_Y);
     }
+    if (found->is_knob) memset(want.rel, 0xff, sizeof want.rel);
     put(types, EV_SYN);
     put(types, EV_KEY);
     if (kind) put(types, EV_ABS);
-    if (kind) put(types, EV_REL);
+    if (kind || found->is_knob) put(types, EV_REL);
     set_mask(fd, EV_KEY, want.keys, sizeof want.keys);
     set_mask(fd, EV_ABS, want.abs, sizeof want.abs);
     set_mask(fd, EV_REL, want.rel, sizeof want.rel);
@@ -94,7 +96,13 @@ static int open_device(void *context, const char *path, const struct gn_evdev_wi
     bool any = false;
     struct gn_touch_abilities a = {0};
     int error = read_abilities(fd, &a);
+    if (gn_touch_is_knob(&a)) {
+        put(a.keys, GN_KEY_KNOB_LEFT);
+        put(a.keys, GN_KEY_KNOB_RIGHT);
+    }
     memcpy(out->has, a.keys, sizeof out->has);
+    out->is_knob = gn_touch_is_knob(&a) && (gn_key_is_down(wish->bound, GN_KEY_KNOB_LEFT) ||
+                                            gn_key_is_down(wish->bound, GN_KEY_KNOB_RIGHT));
     for (int i = 0; i < GN_KEY_BYTES; i++) any |= a.keys[i] & wish->bound[i];
     find_touch(fd, &a, wish->pointers, &out->touch);
     if (!error && !any && !out->touch.kind) error = ENOTSUP;
@@ -104,7 +112,7 @@ static int open_device(void *context, const char *path, const struct gn_evdev_wi
         return error;
     }
     if (ioctl(fd, EVIOCGNAME(sizeof out->name - 1), out->name) < 0) out->name[0] = '\0';
-    set_masks(fd, wish->bound, &out->touch);
+    set_masks(fd, wish->bound, out);
     out->fd = fd;
     return 0;
 }

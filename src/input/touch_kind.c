@@ -30,3 +30,10 @@ enum gn_touch_kind gn_touch_kind(const struct gn_touch_abilities *a) {
     if (plane && left) return GN_TOUCH_TABLET;
     return has(a->rel, REL_X) && has(a->rel, REL_Y) && left ? GN_TOUCH_MOUSE : GN_TOUCH_NONE;
 }
+
+bool gn_touch_is_knob(const struct gn_touch_abilities *a) {
+    const bool moves = has(a->rel, REL_X) && has(a->rel, REL_Y);
+    bool any = false;
+    for (size_t i = 0; i < sizeof a->rel; i++) any |= a->rel[i];
+    return any && !moves && !has(a->abs, ABS_X) && !has(a->abs, ABS_MT_SLOT);
+}

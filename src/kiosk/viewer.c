@@ -25,8 +25,8 @@ static void add_button(const struct gn_button_config *button, char *out, size_t 
     char name[40];
     int place;
     for (const char *at = button->opts.keys; at && gn_text_word(&at, name, sizeof name);) {
-        const unsigned key = gn_key_find(name); /* a window has no taps */
-        if (key == GN_KEY_TAP || gn_viewer_key_find(key, &place)) continue;
+        const unsigned key = gn_key_find(name); /* a window has no knobs and taps */
+        if (key >= GN_KEY_KNOB_LEFT || gn_viewer_key_find(key, &place)) continue;
         gn_text_add(out, size, "%s%s", comma, name);
         comma = ", ";
     }

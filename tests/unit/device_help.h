@@ -22,6 +22,7 @@ enum { DEVICES = 20 };
 static struct {
     int write_fd;
     int error; /* of open */
+    bool is_knob;
     uint8_t down[GN_KEY_BYTES];
     struct gn_touch_opts glass; /* zeroed: it is a keyboard only */
     struct gn_touch_state fingers;
@@ -45,6 +46,7 @@ static inline int open_keyboard(void *context, const char *path, const struct gn
     keyboards[i].write_fd = ends[1];
     out->fd = ends[0];
     memcpy(out->has, wish->bound, GN_KEY_BYTES);
+    out->is_knob = keyboards[i].is_knob;
     if (wish->pointers) out->touch = keyboards[i].glass;
     return 0;
 }

@@ -201,6 +201,36 @@ static void write_script(const char *text) {
     opts.script = path;
 }
 
+/* Each click is a press, by either of its keys; of a device that is no knob none is. */
+static void test_a_knob_clicks(void **state) {
+    (void)state;
+    buttons[0].keys = "knob_right";
+    buttons[1].keys = "knob_left";
+    buttons[0].gestures = buttons[1].gestures = 1u << GN_GESTURE_PRESS;
+    keyboards[0].is_knob = true;
+    plug(0);
+    plug(1);
+    open_input();
+    send(0, EV_REL, REL_DIAL, 1, start_ns + 10 * MS);
+    send(0, EV_REL, REL_WHEEL_HI_RES, 120, start_ns + 10 * MS);
+    send(0, EV_SYN, SYN_REPORT, 0, start_ns + 10 * MS);
+    send(1, EV_REL, REL_DIAL, 1, start_ns + 10 * MS);
+    send(1, EV_SYN, SYN_REPORT, 0, start_ns + 10 * MS);
+    dispatch(20 * MS);
+    assert_gesture(0, GN_GESTURE_PRESS, 10 * MS);
+    assert_nothing();
+    send(0, EV_REL, REL_X, -3, start_ns + 30 * MS);
+    send(0, EV_SYN, SYN_REPORT, 0, start_ns + 30 * MS);
+    dispatch(40 * MS);
+    for (int i = 0; i < 3; i++) assert_gesture(1, GN_GESTURE_PRESS, 30 * MS);
+    assert_nothing();
+    send(0, EV_REL, REL_X, INT32_MIN, start_ns + 5000 * MS); /* a broken one */
+    dispatch(5010 * MS);
+    for (int i = 0; i < GN_GESTURE_RATE; i++) assert_gesture(1, GN_GESTURE_PRESS, 5000 * MS);
+    assert_nothing();
+    assert_false(wakes(10 * GN_NS_PER_S));
+}
+
 static void test_a_script_presses_buttons_and_keys(void **state) {
     (void)state;
     write_script("0.1 click next\n0.12 click left\n0.2 down next\n0.205 up next\n1 down next\n");
@@ -255,6 +285,7 @@ int main(void) {
         TEST(test_more_devices_than_places_are_said_once),
         TEST(test_keys_of_the_window_count_once_however_often_they_are_told),
         TEST(test_keys_make_chords_too),
+        TEST(test_a_knob_clicks),
         TEST(test_a_script_presses_buttons_and_keys),
         TEST(test_a_script_knows_only_what_there_is),
         TEST(test_the_loop_wakes_up_for_timers),

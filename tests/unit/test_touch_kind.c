@@ -132,7 +132,38 @@ static void test_each_device_is_what_it_is(void **state) {
     }
 }
 
+static void test_a_knob_has_an_axis_and_no_plane(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        bool is;
+        int keys[3], abs[3], rel[5];
+    } rows[] = {
+        {"rotary-encoder of a device tree, with its default axis",
+         true,
+         {END},
+         {END},
+         {REL_X, END}},
+        {"the same, of the other axis", true, {END}, {END}, {REL_Y, END}},
+        {"Griffin PowerMate, rotary@ with a button", true, {BTN_0, END}, {END}, {REL_DIAL, END}},
+        {"Surface Dial", true, {BTN_0, END}, {END}, {REL_DIAL, REL_WHEEL_HI_RES, END}},
+        {"a wheel alone", true, {KEY_MUTE, END}, {END}, {REL_WHEEL, REL_WHEEL_HI_RES, END}},
+        {"a mouse", false, {BTN_LEFT, END}, {END}, {REL_X, REL_Y, REL_WHEEL, END}},
+        {"a trackpoint without a button", false, {END}, {END}, {REL_X, REL_Y, END}},
+        {"a tablet with a wheel", false, {BTN_LEFT, END}, {ABS_X, ABS_Y, END}, {REL_WHEEL, END}},
+        {"a keyboard", false, {KEY_A, END}, {END}, {END}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct gn_touch_abilities a = {0};
+        put_all(a.keys, rows[i].keys);
+        put_all(a.abs, rows[i].abs);
+        put_all(a.rel, rows[i].rel);
+        if (gn_touch_is_knob(&a) != rows[i].is) fail_msg("%s", rows[i].name);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_device_is_what_it_is)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_each_device_is_what_it_is),
+                                       cmocka_unit_test(test_a_knob_has_an_axis_and_no_plane)};
     return RUN(tests);
 }
