@@ -90,9 +90,9 @@ static void assert_edges_are_light(const struct gn_picture *p, const char *name)
 static void check_edges(const char *file, const char *without, const char *name) {
     struct window_shown s;
     struct gn_picture expected = {0}, now = {0};
-    const char *args[] = {"show",    file,     "--backend", "window",  "--size",
-                          "320x200", "--msaa", "4",         "--floor", "none",
-                          "--tone",  "none",   "--without", without,   NULL};
+    const char *args[] = {"show",     file,   "--backend", "window", "--size", "320x200",
+                          "--msaa",   "4",    "--floor",   "none",   "--tone", "none",
+                          "--gather", "none", "--without", without,  NULL};
     const char *alike[] = {"--size", "320x200",   "--msaa", "4", "--backend",
                            "egl",    "--without", without,  NULL};
     struct gn_err err = {0};
