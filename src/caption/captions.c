@@ -40,7 +40,7 @@ struct gn_captions {
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
     double split;         /* place of the line of a split screen; below 0: none */
     uint32_t bottom_px;   /* height in use at the picture's lower edge */
-    int32_t page_px;      /* the first row below the page; 0: there is none */
+    int32_t page_px[2];   /* the first column right of the page, and row below; 0: none */
     int64_t shown_ns;     /* time of the last run */
     bool changed;         /* since then */
     bool stale;           /* the quads show other texts */
@@ -292,8 +292,11 @@ static void lay_out(struct gn_captions *c, enum gn_caption_kind kind) {
     gn_page_build(style, &font, c->captions[kind].text, c->run.width_px, c->run.height_px,
                   style->at_top ? 0 : c->bottom_px, has_bar, page);
     const struct gn_page_rect *ground = &page->ground;
-    if (ground->width == 0 || ground->y < c->page_px) return;
-    if (kind == GN_CAPTION_INFO) c->page_px = ground->y + ground->height;
+    if (ground->width == 0 || ground->y < c->page_px[1]) return;
+    if (kind == GN_CAPTION_INFO) {
+        c->page_px[0] = ground->x + ground->width;
+        c->page_px[1] = ground->y + ground->height;
+    }
     push_ground(c, kind, ground);
     for (uint32_t i = 0; i < page->count; i++) push_line(c, kind, &page->lines[i]);
     if (has_bar) push_bar(c, kind, &page->bar);
@@ -331,9 +334,10 @@ static void find_missing(struct gn_captions *c) {
 
 const char *gn_captions_missing(const struct gn_captions *c) { return c->missing; }
 
-/* White on a dark rim. */
+/* White on a dark rim, where no page lies. */
 static void lay_out_handle(struct gn_captions *c) {
     const struct gn_page_rect rim = gn_page_handle(c->run.width_px, c->run.height_px, c->split);
+    if (rim.x < c->page_px[0] && rim.y < c->page_px[1]) return;
     const int32_t wide = rim.width / 8 + 1, side = rim.width - 2 * wide;
     const struct gn_page_rect disc = {rim.x + wide, rim.y + wide, side, side};
     struct gn_caption_quad like = {.caption = GN_CAPTION_RIGHT, .ground = true};
@@ -362,7 +366,7 @@ static void lay_out_split(struct gn_captions *c) {
 static void lay_out_all(struct gn_captions *c) {
     const bool page = c->captions[GN_CAPTION_INFO].text[0];
     c->bottom_px = 0;
-    c->page_px = 0;
+    c->page_px[0] = c->page_px[1] = 0;
     c->run.quad_count = 0;
     if (c->captions[GN_CAPTION_INFO].text[0]) lay_out(c, GN_CAPTION_INFO);
     if (is_there(c, GN_CAPTION_TEXT)) lay_out(c, GN_CAPTION_TEXT);

@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "caption/page.h"
 #include "kiosk/private.h"
 
 enum { REACH_PX = 12, LINE_PX = 2 }; /* of the mouse to each side of the line; the line's half */
@@ -68,19 +67,32 @@ static void fill_line(struct gn_gl *gl, uint32_t from, uint32_t to, uint32_t y, 
     if (to - from > 2) gn_gl_fill(gl, &(struct gn_rect){from + 1, y, to - from - 2, top - y}, 1.0f);
 }
 
+/* Whether a text's ground has the row, top row first, in those columns; *end: where that changes. */
+static bool find_ground(const struct gn_caption_run *run, uint32_t from, uint32_t to, int32_t row,
+                        int32_t *end) {
+    for (uint32_t i = 0; run && i < run->quad_count; i++) {
+        const struct gn_caption_quad *q = &run->quads[i];
+        if (!q->ground || run->alpha[q->caption] == 0 || q->x >= (int32_t)to ||
+            q->x + q->width <= (int32_t)from || q->y + q->height <= row)
+            continue;
+        if (q->y <= row) {
+            *end = q->y + q->height;
+            return true;
+        }
+        if (q->y < *end) *end = q->y;
+    }
+    return false;
+}
+
+/* The line lies below texts and its handle, which are drawn already. */
 void gn_split_lay_over(struct gn_show_screen *s) {
     const struct gn_frame_opts *f = &s->stage.shown.opts;
     const uint32_t width = f->output.width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
                    from = at > LINE_PX ? at - LINE_PX : 0,
                    to = at + LINE_PX < width ? at + LINE_PX : width;
-    const struct gn_page_rect handle = gn_page_handle(width, f->output.height_px, s->split.at);
-    const uint32_t below = (uint32_t)handle.y, height = f->output.height_px,
-                   above = below + (uint32_t)handle.height;
+    const int32_t height = (int32_t)f->output.height_px;
     gn_gl_lay_beside(s->stage.gl, at);
-    if (s->rules.caption_ns == 0) { /* without a handle */
-        fill_line(s->stage.gl, from, to, 0, height);
-        return;
-    }
-    fill_line(s->stage.gl, from, to, 0, below);
-    fill_line(s->stage.gl, from, to, above, height);
+    for (int32_t row = 0, end = height; row < height; row = end, end = height)
+        if (!find_ground(f->output.turn_deg ? NULL : f->cover.captions, from, to, row, &end))
+            fill_line(s->stage.gl, from, to, (uint32_t)(height - end), (uint32_t)(height - row));
 }

@@ -21,6 +21,7 @@ const char *const screen_names[SCREEN_STATES] = {
     [SCREEN_INFORMATION] = "information",
     [SCREEN_HELP] = "help",
     [SCREEN_SPLIT] = "split",
+    [SCREEN_SPLIT_HELP] = "split-help",
     [SCREEN_TRUTH] = "truth",
     [SCREEN_PROBLEM] = "problem",
     [SCREEN_PROBLEM_INFORMATION] = "problem-information",
@@ -83,12 +84,14 @@ static bool all_stand(const struct gn_caption_run *run) {
     return true;
 }
 
-/* Until nothing rises or falls any more. */
 static void draw_frame(void) {
     show->screen.changed = true;
     help_show_frames(show, 1);
 }
+
+/* Until nothing rises or falls any more; in its first frame what falls is still whole. */
 static void draw(void) {
+    draw_frame();
     draw_frame();
     for (int i = 0; i < FRAMES_MAX && !all_stand(show->screen.stage.shown.opts.cover.captions); i++)
         draw_frame();
@@ -215,6 +218,11 @@ static void take_halves(void) {
     while (gn_kiosk_waits(&show->screen.kiosk)) step();
     draw();
     take_frame(SCREEN_SPLIT);
+    press('h');
+    draw();
+    take_frame(SCREEN_SPLIT_HELP);
+    press('h');
+    draw();
     press('t');
     draw();
     while (opts->traces && show->screen.truth.on && !show->screen.truth.shown) step();
