@@ -180,7 +180,7 @@ static void measure(const struct screen_shown *s) {
         [SCREEN_MODE] = 1,      [SCREEN_INFORMATION] = 1, [SCREEN_HELP] = 1,
         [SCREEN_SPLIT] = 1,     [SCREEN_LOADING] = 1,     [SCREEN_PROBLEM] = 1,
         [SCREEN_WRONG_KEY] = 1, [SCREEN_WRONG_FILE] = 1,  [SCREEN_STICK_REFUSED] = 1,
-        [SCREEN_NO_SCENE] = 1,  [SCREEN_TRUTH] = 1,         [SCREEN_SPLIT_HELP] = 1};
+        [SCREEN_NO_SCENE] = 1,  [SCREEN_TRUTH] = 1,       [SCREEN_SPLIT_HELP] = 1};
     seen[s->state] = true;
     if (is_message(s->state)) {
         measure_message(s);
