@@ -67,7 +67,8 @@ static void fill_line(struct gn_gl *gl, uint32_t from, uint32_t to, uint32_t y, 
     if (to - from > 2) gn_gl_fill(gl, &(struct gn_rect){from + 1, y, to - from - 2, top - y}, 1.0f);
 }
 
-/* Whether a text's ground has the row, top row first, in those columns; *end: where that changes. */
+/* Whether a text has a ground in that row, top row first, of those columns; *end: where that
+ * changes. */
 static bool find_ground(const struct gn_caption_run *run, uint32_t from, uint32_t to, int32_t row,
                         int32_t *end) {
     for (uint32_t i = 0; run && i < run->quad_count; i++) {
