@@ -20,7 +20,8 @@ BEGIN {
     may["frame"] = "core environment scene shadow caption"
     may["cost"] = "core environment scene shadow truth frame caption"
     may["gl"] = "core environment scene shadow frame caption"
-    may["caption"] = may["display"] = may["input"] = may["take"] = "core"
+    may["caption"] = may["input"] = may["take"] = "core"
+    may["display"] = "core caption"
     may["import"] = "core image" # a program of its own
     may["options"] = "core dial scene shadow frame cost display input take"
     may["stage"] = "core image environment scene shadow truth frame gl display input caption options cost"

@@ -1,8 +1,8 @@
 #include <stdlib.h>
 
+#include "caption/dot_font.h"
 #include "caption/font.h"
 #include "core/arena.h"
-#include "core/dot_font.h"
 
 enum { SCALE_MAX = 16 };
 

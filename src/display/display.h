@@ -103,6 +103,9 @@ struct gn_display_ops {
     void (*close)(struct gn_display *display);
     const struct gn_screen_ops *screen; /* NULL: headless */
 };
+/* Shown where GL does not start: for whoever stands before the screen. */
+#define GN_DISPLAY_NO_GL "The graphics do not work: \"gnomon doctor\" has the reason"
+
 struct gn_screen_ops { /* see the functions of the same names */
     bool (*open)(struct gn_display *display, const struct gn_screen_opts *opts, int64_t now_ns,
                  struct gn_warnings *warnings, struct gn_err *err);

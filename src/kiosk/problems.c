@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "display/display.h"
+
 void gn_problem_report(struct gn_problems *p, enum gn_problem kind, const char *text) {
     if (strcmp(p->of[kind], text) == 0) return;
     snprintf(p->of[kind], sizeof p->of[kind], "%s", text);
@@ -54,7 +56,7 @@ const struct gn_problem_words gn_problem_words[GN_PROBLEM_COUNT] = {
     [GN_PROBLEM_TELEVISION] = {"The television does not answer",
                                "Switch on HDMI-CEC in its menu, or set \"off\" in [schedule]."},
     [GN_PROBLEM_RANGE] = {"The signal's levels cannot be set", "Set them in the monitor's menu."},
-    [GN_PROBLEM_GRAPHICS] = {"The graphics do not work: \"gnomon doctor\" has the reason", STATUS},
+    [GN_PROBLEM_GRAPHICS] = {GN_DISPLAY_NO_GL, STATUS},
     [GN_PROBLEM_VOLTAGE] = {"The power supply is too weak",
                             "Use the board's own power supply and a short, thick cable."},
     [GN_PROBLEM_THROTTLED] = {"The board is too hot",

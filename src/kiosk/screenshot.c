@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "caption/message.h"
 #include "core/arena.h"
 #include "core/file.h"
 #include "core/thread.h"
@@ -187,30 +188,18 @@ bool gn_screenshot_start(struct gn_screenshot *shot, struct gn_err *err) {
     return shot->runs || gn_fail(err, "screenshot: no thread: %s", strerror(reason));
 }
 
-/* White on the ground of messages. */
-static void paint_text(const struct gn_caption_run *run, uint8_t *rgba) {
-    static const int ground[3] = {0x20, 0x24, 0x28}, ink = 0xe8;
-    for (size_t i = 0; i < (size_t)run->width_px * run->height_px; i++)
-        for (int k = 0; k < 3; k++) rgba[4 * i + (size_t)k] = (uint8_t)ground[k];
-    for (uint32_t i = 0; i < run->quad_count; i++) {
-        const struct gn_caption_quad *q = &run->quads[i];
-        for (int32_t y = 0; y < q->height && !q->ground; y++)
-            for (int32_t x = 0; x < q->width; x++) {
-                const int covered =
-                    run->atlas->coverage[(uint32_t)(q->atlas_y + y) * run->atlas->width_px +
-                                         (uint32_t)(q->atlas_x + x)];
-                uint8_t *to = rgba + 4 * ((size_t)(q->y + y) * run->width_px + (size_t)(q->x + x));
-                for (int k = 0; k < 3; k++)
-                    to[k] = (uint8_t)(ground[k] + (ink - ground[k]) * covered / 255);
-            }
-    }
-}
-
-bool gn_screenshot_say(struct gn_screenshot *shot, const struct gn_caption_run *run,
-                       struct gn_err *err) {
-    uint8_t *rgba = gn_screenshot_begin(shot, run->width_px, run->height_px, 0, err);
+bool gn_screenshot_say(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,
+                       const char *font, const char *text, struct gn_err *err) {
+    uint8_t *rgba = gn_screenshot_begin(shot, width_px, height_px, 0, err);
+    const struct gn_message_picture picture = {.pixels = rgba,
+                                               .stride = 4ul * width_px,
+                                               .width_px = width_px,
+                                               .height_px = height_px,
+                                               .red_first = true,
+                                               .font = font};
     if (!rgba) return false;
-    paint_text(run, rgba);
+    if (!gn_message_draw(&picture, text))
+        return gn_fail(err, "screenshot: the screen is too small for a text");
     return gn_screenshot_start(shot, err);
 }
 

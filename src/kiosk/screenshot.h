@@ -6,7 +6,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "caption/run.h"
 #include "core/loop.h"
 
 /* For the client: may a picture be written there? An absolute path that ends in .png; there is a
@@ -36,10 +35,10 @@ bool gn_screenshot_is_busy(const struct gn_screenshot *shot);  /* asked, or not 
 uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,
                              unsigned turn_deg, struct gn_err *err);
 bool gn_screenshot_start(struct gn_screenshot *shot, struct gn_err *err);
-/* In place of a frame, where there is none: a picture as large as the run's, as it is seen, with
- * its texts on the ground of messages, and starts the thread. */
-bool gn_screenshot_say(struct gn_screenshot *shot, const struct gn_caption_run *run,
-                       struct gn_err *err);
+/* In place of a frame, where there is none: a picture of that size, as it is seen, with that text
+ * in that font (as in struct gn_captions_opts), and starts the thread. */
+bool gn_screenshot_say(struct gn_screenshot *shot, uint32_t width_px, uint32_t height_px,
+                       const char *font, const char *text, struct gn_err *err);
 /* What was asked for cannot be had; gn_screenshot_take() returns the reason. */
 void gn_screenshot_fail(struct gn_screenshot *shot, const struct gn_err *err);
 /* True: it is done, *ok and err say how it ended, and another can be asked for. */

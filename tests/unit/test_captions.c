@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "caption/captions.h"
+#include "caption/dot_font.h"
 #include "core/arena.h"
-#include "core/dot_font.h"
 #include "image/dice.h"
 #include "unit/check.h"
 

@@ -11,7 +11,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "caption/captions.h"
 #include "core/clock.h"
 #include "core/file.h"
 #include "image/picture.h"
@@ -85,10 +84,7 @@ static void a_text_takes_the_place_of_a_frame(void **state) {
     struct gn_picture picture = {0};
     int ink = 0;
     gn_screenshot_ask(shot, in_folder("a.png"), -1);
-    struct gn_captions *captions = gn_captions_create(&(struct gn_captions_opts){.font = ""});
-    gn_captions_set(captions, GN_CAPTION_TEXT, "it is off", 0);
-    assert_true(gn_screenshot_say(shot, gn_captions_run(captions, 90, 40, 0), &err));
-    gn_captions_destroy(captions);
+    assert_true(gn_screenshot_say(shot, 90, 40, "", "it is off", &err));
     if (!finish()) fail_msg("%s", err.text);
     if (!gn_picture_read(&picture, in_folder("a.png"), &err)) fail_msg("%s", err.text);
     assert_int_equal(picture.width_px, 90);

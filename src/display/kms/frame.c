@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "caption/message.h"
 #include "display/kms/state.h"
-#include "display/message.h"
 
 #define STARVED_NS (5 * GN_KMS_S) /* no framebuffer for so long: try other buffers */
 
@@ -147,9 +147,12 @@ void gn_kms_send_message(struct gn_kms *k, int64_t now_ns) {
     struct gn_dumb *copy = gn_kms_free_copy(k);
     struct gn_kms_frame frame = {.key = copy, .fence = -1};
     const struct gn_buffer buffer = gn_dumb_buffer(copy);
-    const struct gn_message_picture picture = {copy->pixels, copy->stride, copy->width_px,
-                                               copy->height_px, k->screen.rotate_deg};
-    gn_message_draw(&picture, k->text.message);
+    const struct gn_message_picture picture = {.pixels = copy->pixels,
+                                               .stride = copy->stride,
+                                               .width_px = copy->width_px,
+                                               .height_px = copy->height_px,
+                                               .turn_deg = k->screen.rotate_deg};
+    gn_message_draw(&picture, k->device.scanout ? k->text.message : GN_DISPLAY_NO_GL);
     const int error = gn_kms_output_fb(&k->output, &buffer, &frame.fb);
     if (error == 0)
         gn_kms_send(k, frame, now_ns);

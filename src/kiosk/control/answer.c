@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "caption/captions.h"
 #include "core/clock.h"
 #include "kiosk/private.h"
 #include "kiosk/screenshot.h"
@@ -97,21 +96,16 @@ static void begin_dark(struct gn_show *s, const char *why) {
                on_side = screen->rotate_deg % 180 != 0;
     const uint32_t width = known ? screen->width_px : (uint32_t)size->width_px,
                    height = known ? screen->height_px : (uint32_t)size->height_px;
-    const struct gn_captions_opts opts = {.font = s->screen.stage.settings->render.font};
-    struct gn_captions *captions = gn_captions_create(&opts);
+    const char *font = s->screen.stage.settings->render.font;
     char text[300];
     struct gn_err err = {0};
     if (s->screen.kiosk.blanked)
         snprintf(text, sizeof text, "Screen off. gnomon ctl blank off turns it on.");
     else
         snprintf(text, sizeof text, "Nothing is shown: %.280s.", why);
-    gn_captions_set(captions, GN_CAPTION_TEXT, text, 0);
-    const struct gn_caption_run *run =
-        gn_captions_run(captions, on_side ? height : width, on_side ? width : height, 0);
-    if (!run) gn_fail(&err, "screenshot: the screen is too small for a text");
-    if (!run || !gn_screenshot_say(s->screenshot, run, &err))
+    if (!gn_screenshot_say(s->screenshot, on_side ? height : width, on_side ? width : height, font,
+                           text, &err))
         gn_screenshot_fail(s->screenshot, &err);
-    gn_captions_destroy(captions);
 }
 
 /* Answered when the picture is written. */

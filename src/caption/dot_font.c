@@ -1,4 +1,4 @@
-#include "core/dot_font.h"
+#include "caption/dot_font.h"
 
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 /* Built-in bitmap font: ASCII ' ' to '~', 5 x 7 dots above the base line and two rows below it, in
  * cells of 6 x 10. */
-#ifndef GN_CORE_DOT_FONT_H
-#define GN_CORE_DOT_FONT_H
+#ifndef GN_CAPTION_DOT_FONT_H
+#define GN_CAPTION_DOT_FONT_H
 
 #include <stdint.h>
 
