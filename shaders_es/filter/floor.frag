@@ -12,6 +12,9 @@ uniform sampler2D u_texture_occlusion;
 #endif
 layout(location = 0) out MOMENTS_OUT o_moments;
 
+// A step of a bright floor in 8 bits takes half of this share of its light: noise of that width hides it, in the picture's size and
+// in mipmaps that halve it.
+const float LEVEL = 0.025;
 const float FOOT_CODE = 0.25, FOOT = 4.0 / 255.0;
 
 void main() {
@@ -32,6 +35,8 @@ void main() {
 #endif
     vec3 light = u_pass[FILTER_FLOOR].xyz;
     float taken = (light.x * closed + light.y * hidden) * clamp(2.0 - 2.0 * length(at), 0.0, 1.0); // none at the rim
+    float noise = fract(sin(dot(floor(gl_FragCoord.xy), vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
+    taken += noise * min(LEVEL, taken);
     float seen = weight < 1.0 ? FOOT : 1.0;
     o_moments = vec4(vec2(taken, 1.0) * seen * light.z, 0.0, light.z);
 }

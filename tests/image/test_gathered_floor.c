@@ -179,6 +179,32 @@ static void test_it_is_no_darker_beside_what_stands(void **state) {
     }
 }
 
+/* Where light changes slowly no step of a grey level is a line that an eye can follow: of pixels
+ * that are a little darker than the open ground few stand among as many equal ones. */
+static void test_its_steps_are_noise(void **state) {
+    (void)state;
+    enum { SIDE = 1280, EQUAL = 6 };
+    struct gn_picture shot;
+    struct gn_err err = {0};
+    const char *args[] = {"--size", "1280x1280",     "--shadow", "cone", "--floor",
+                          "auto",   "--environment", "studio",   NULL};
+    if (!gn_shot(&shot, NULL, &err, "png", write_scene(1), args)) fail_msg("%s", err.text);
+    const float open = gn_picture_at(&shot, 0, 0)[1];
+    int all = 0, in_lines = 0;
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0, end; x < SIDE; x = end) {
+            const float grey = gn_picture_at(&shot, x, y)[1], darker = (open - grey) * 255;
+            for (end = x + 1; end < SIDE && gn_picture_at(&shot, end, y)[1] == grey;) end++;
+            if (darker < 1.5f || darker > 14.5f) continue;
+            all += end - x;
+            in_lines += end - x < EQUAL ? 0 : end - x;
+        }
+    print_message("%d pixels, %d in lines\n", all, in_lines);
+    assert_in_range(all, 50000, SIDE * SIDE);
+    assert_in_range(in_lines, 0, all * 3 / 4);
+    gn_picture_finish(&shot);
+}
+
 /* ---- from frame to frame ---- */
 
 static struct help_stage stage;
@@ -353,6 +379,7 @@ int main(void) {
         cmocka_unit_test(test_its_penumbrae_are_true),
         cmocka_unit_test(test_its_alpha_is_what_light_it_lacks),
         cmocka_unit_test(test_it_is_no_darker_beside_what_stands),
+        cmocka_unit_test(test_its_steps_are_noise),
         cmocka_unit_test(test_it_converges_unseen),
         cmocka_unit_test(test_what_moves_has_the_lights_own_map),
         cmocka_unit_test(test_it_is_not_seen_from_below),
