@@ -19,8 +19,10 @@ void gn_pointer_add(struct gn_pointer *pointer, const struct gn_pointer *more) {
         if (more->letters[i]) gn_pointer_letter(pointer, (unsigned char)more->letters[i]);
     }
     if (more->file) pointer->file = more->file;
-    if (more->pressed) pointer->press_x = more->press_x;
-    if (more->dragged) pointer->drag_x = more->drag_x;
+    for (int k = 0; k < 2; k++) {
+        if (more->pressed) pointer->press[k] = more->press[k];
+        if (more->dragged) pointer->drag[k] = more->drag[k];
+    }
     pointer->pressed |= more->pressed;
     pointer->dragged |= more->dragged;
     pointer->released |= more->released;

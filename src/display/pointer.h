@@ -25,9 +25,10 @@ struct gn_pointer {        /* zeroed: no input */
     char letters[GN_POINTER_KEYS_MAX]; /* ASCII characters that those presses typed, as the layout
                                           has them, but the window's own; 0: none */
     unsigned key_count;
-    /* the left button, to the right in widths of the window: for a handle that is dragged */
+    /* the left button, to the right and down in widths and heights of the window: for a handle that
+     * is dragged */
     bool pressed, dragged, released;
-    float press_x, drag_x;
+    float press[2], drag[2];
     const char *file; /* dropped onto the window, until the next one is; NULL: none */
 };
 bool gn_pointer_is_zero(const struct gn_pointer *pointer);

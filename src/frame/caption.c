@@ -98,7 +98,7 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
     float(*c)[4] = gn_frame_constants(frame, GN_CONSTANTS_PROGRAM + GN_PROGRAM_CAPTION);
     if (frame->plan.finishes) pass->target.kind = GN_TARGET_ENCODED;
     gn_frame_to_shown(frame, pass);
-    pass->rect = gn_frame_turned_rect(frame, frame->picture.shown_width_px,
+    pass->rect = gn_frame_turned_rect(frame->picture.turn_deg, frame->picture.shown_width_px,
                                       frame->picture.shown_height_px, rect);
     pass->picture.blend = GN_BLEND_ALPHA;
     pass->depth_write = false;

@@ -187,6 +187,7 @@ static void turn_picture(struct gn_frame *frame, const struct gn_frame_opts *opt
                            (float)(opts->output.width_px ? opts->output.width_px : plan->width_px);
     frame->picture.shown_width_px = on_side ? plan->shown_height_px : plan->shown_width_px;
     frame->picture.shown_height_px = on_side ? plan->shown_width_px : plan->shown_height_px;
+    frame->picture.turn_deg = opts->output.turn_deg % 360;
     memcpy(frame->picture.turn, turns[opts->output.turn_deg / 90 % 4], sizeof frame->picture.turn);
 }
 

@@ -143,6 +143,10 @@ struct gn_frame_opts {
 
 /* How many of the pixels of a side are drawn at that scale; even, as displays want them. */
 uint32_t gn_frame_scaled_px(uint32_t px, float scale);
+/* overlay.c: where a rectangle of a picture of that size, before it is turned, is in the output
+ * that has it turned clockwise by 0, 90, 180 or 270 degrees. */
+struct gn_rect gn_frame_turned_rect(unsigned turn_deg, uint32_t width_px, uint32_t height_px,
+                                    struct gn_rect rect);
 
 /* eye.c: on which side of the scene's centre the camera looks from, about the vertical axis: 0 from
  * +Z, towards +X. Moved by the user and by the turntable; never that of a light. */

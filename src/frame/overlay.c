@@ -106,13 +106,13 @@ static void add_marks_pass(struct gn_frame *frame, const struct gn_pose *pose) {
 
 /* ---- panels ---- */
 
-struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, uint32_t w, uint32_t h,
-                                    struct gn_rect r) {
-    const float c = frame->picture.turn[0], s = frame->picture.turn[1];
-    if (s > 0) return (struct gn_rect){r.y, w - r.x - r.width, r.height, r.width};
-    if (s < 0) return (struct gn_rect){h - r.y - r.height, r.x, r.height, r.width};
-    if (c < 0) return (struct gn_rect){w - r.x - r.width, h - r.y - r.height, r.width, r.height};
-    return r;
+struct gn_rect gn_frame_turned_rect(unsigned turn_deg, uint32_t w, uint32_t h, struct gn_rect r) {
+    switch (turn_deg) {
+    case 90: return (struct gn_rect){r.y, w - r.x - r.width, r.height, r.width};
+    case 180: return (struct gn_rect){w - r.x - r.width, h - r.y - r.height, r.width, r.height};
+    case 270: return (struct gn_rect){h - r.y - r.height, r.x, r.height, r.width};
+    default: return r;
+    }
 }
 
 static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
@@ -153,7 +153,7 @@ static void add_panel_pass(struct gn_frame *frame, uint32_t slot) {
     c[PANEL_PX][3] = frame->picture.turn[1];
     struct gn_pass *pass = gn_frame_picture_pass(frame, label);
     pass->depth_write = false;
-    pass->rect = gn_frame_turned_rect(frame, width, height, rect);
+    pass->rect = gn_frame_turned_rect(frame->picture.turn_deg, width, height, rect);
     pass->picture.first_shadow = slot;
     pass->picture.shadow_count = 1;
     pass->picture.reads_codes = true;

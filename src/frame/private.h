@@ -129,6 +129,7 @@ struct gn_frame {
         uint32_t shown_width_px, shown_height_px; /* likewise, as it is finished */
         float scale;   /* pixels as they are drawn for each that is shown */
         float turn[2]; /* cosine and sine of that, clockwise */
+        unsigned turn_deg;
     } picture;
     struct gn_plan plan;
 };
@@ -255,9 +256,6 @@ void gn_frame_plane_passes(struct gn_frame *frame, const struct gn_pose *pose,
                            const struct gn_frame_opts *opts, uint32_t group);
 /* Whether the group has any that is visible. */
 bool gn_frame_marks_plane(const struct gn_frame *frame, uint32_t group);
-/* Where a rectangle of a picture of that size, before it is turned, is in the output. */
-struct gn_rect gn_frame_turned_rect(const struct gn_frame *frame, uint32_t width_px,
-                                    uint32_t height_px, struct gn_rect rect);
 
 /* ---- tone.c ---- */
 

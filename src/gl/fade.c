@@ -94,18 +94,19 @@ void gn_gl_lay_over(struct gn_gl *gl, float share) {
     GL(gl, DrawArrays)(GL_TRIANGLES, 0, 3);
 }
 
-void gn_gl_lay_beside(struct gn_gl *gl, uint32_t columns_px) {
+void gn_gl_lay_part(struct gn_gl *gl, const struct gn_rect *part) {
     const struct gn_gl_kept *k = &gl->kept;
     const struct gn_gl_output *o = gl->targets.output;
     const GLuint to = gn_gl_output_finished(o);
-    const GLint w = (GLint)(columns_px < o->shown_width_px ? columns_px : o->shown_width_px),
-                h = (GLint)o->shown_height_px;
-    if (!fits_output(k, o) || w == 0) return;
+    const GLint x = (GLint)part->x, y = (GLint)part->y, right = x + (GLint)part->width,
+                top = y + (GLint)part->height;
+    if (!fits_output(k, o) || right == x || top == y) return;
     gn_gl_set_scissor(gl, NULL);
     gn_gl_set_color_write(gl, true);
     gn_gl_bind_framebuffer(gl, to);
     GL(gl, BindFramebuffer)(GL_READ_FRAMEBUFFER, k->framebuffer);
-    GL(gl, BlitFramebuffer)(0, 0, w, h, 0, 0, w, h, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    GL(gl, BlitFramebuffer)
+    (x, y, right, top, x, y, right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     GL(gl, BindFramebuffer)(GL_FRAMEBUFFER, to); /* as the cache says */
 }
 

@@ -130,8 +130,8 @@ bool gn_gl_keep(struct gn_gl *gl, struct gn_err *err);
 /* Blends the kept picture over the current one. share: its weight, 0..1. No effect if sizes differ.
  */
 void gn_gl_lay_over(struct gn_gl *gl, float share);
-/* Copies the left columns of the kept picture over the current one. No effect if sizes differ. */
-void gn_gl_lay_beside(struct gn_gl *gl, uint32_t columns_px);
+/* Copies a part of the kept picture over the current one. No effect if sizes differ. */
+void gn_gl_lay_part(struct gn_gl *gl, const struct gn_rect *part);
 /* Fills a part of the current picture with a grey: 0 black, 1 white. */
 void gn_gl_fill(struct gn_gl *gl, const struct gn_rect *part, float grey);
 /* Clears the window to black instead of running a plan. */

@@ -41,13 +41,26 @@ void gn_split_toggle_truth(struct gn_show_screen *s) {
         s->split = (struct gn_show_split){.on = true, .left = s->kiosk.shown.mode, .at = 0.5f};
 }
 
+/* A place in the window, right and down, as a share of the upright picture's width. */
+static float across_picture(unsigned turn_deg, const float at[2]) {
+    switch (turn_deg) {
+    case 90: return at[1];
+    case 180: return 1.0f - at[0];
+    case 270: return 1.0f - at[1];
+    default: return at[0];
+    }
+}
+
 void gn_split_take_pointer(struct gn_show_screen *s, struct gn_pointer *p) {
     struct gn_show_split *split = &s->split;
-    const float width = (float)s->stage.display.screen.width_px;
+    const struct gn_screen *screen = &s->stage.display.screen;
+    const unsigned turn_deg = screen->rotate_deg;
+    const float width = (float)(turn_deg % 180 ? screen->height_px : screen->width_px);
     if (!split->on) return;
-    if (p->pressed) split->grips = fabsf(p->press_x - split->at) * width <= REACH_PX;
+    if (p->pressed)
+        split->grips = fabsf(across_picture(turn_deg, p->press) - split->at) * width <= REACH_PX;
     if (split->grips && p->dragged) {
-        split->at = p->drag_x < 0.0f ? 0.0f : p->drag_x > 1.0f ? 1.0f : p->drag_x;
+        split->at = fminf(fmaxf(across_picture(turn_deg, p->drag), 0.0f), 1.0f);
         s->changed = true;
     }
     if (split->grips) p->turn[0] = p->turn[1] = 0.0f;
@@ -62,9 +75,27 @@ const struct gn_plan *gn_split_draw_left(struct gn_show_screen *s, int64_t time_
     return plan && gn_gl_keep(s->stage.gl, err) ? plan : NULL;
 }
 
-static void fill_line(struct gn_gl *gl, uint32_t from, uint32_t to, uint32_t y, uint32_t top) {
-    gn_gl_fill(gl, &(struct gn_rect){from, y, to - from, top - y}, 0.0f);
-    if (to - from > 2) gn_gl_fill(gl, &(struct gn_rect){from + 1, y, to - from - 2, top - y}, 1.0f);
+/* ---- over the right mode's picture; upright, rows from the top ---- */
+
+struct upright {
+    struct gn_gl *gl;
+    unsigned turn_deg;
+    uint32_t width_px, height_px;
+};
+
+static struct gn_rect part_of(const struct upright *u, uint32_t left, uint32_t right, uint32_t top,
+                              uint32_t bottom) {
+    const struct gn_rect part = {left, u->height_px - bottom, right - left, bottom - top};
+    return gn_frame_turned_rect(u->turn_deg, u->width_px, u->height_px, part);
+}
+
+static void fill_line(const struct upright *u, uint32_t left, uint32_t right, uint32_t top,
+                      uint32_t bottom) {
+    const struct gn_rect all = part_of(u, left, right, top, bottom);
+    gn_gl_fill(u->gl, &all, 0.0f);
+    if (right - left <= 2) return;
+    const struct gn_rect inside = part_of(u, left + 1, right - 1, top, bottom);
+    gn_gl_fill(u->gl, &inside, 1.0f);
 }
 
 /* Whether a text has a ground in that row, top row first, of those columns; *end: where that
@@ -87,13 +118,17 @@ static bool find_ground(const struct gn_caption_run *run, uint32_t from, uint32_
 
 /* The line lies below texts and its handle, which are drawn already. */
 void gn_split_lay_over(struct gn_show_screen *s) {
-    const struct gn_frame_opts *f = &s->stage.shown.opts;
-    const uint32_t width = f->output.width_px, at = (uint32_t)lroundf(s->split.at * (float)width),
-                   from = at > LINE_PX ? at - LINE_PX : 0,
-                   to = at + LINE_PX < width ? at + LINE_PX : width;
-    const int32_t height = (int32_t)f->output.height_px;
-    gn_gl_lay_beside(s->stage.gl, at);
+    const struct gn_frame_output_opts *o = &s->stage.shown.opts.output;
+    const bool on_side = o->turn_deg % 180 != 0;
+    const struct upright u = {s->stage.gl, o->turn_deg, on_side ? o->height_px : o->width_px,
+                              on_side ? o->width_px : o->height_px};
+    const uint32_t at = (uint32_t)lroundf(s->split.at * (float)u.width_px),
+                   left = at > LINE_PX ? at - LINE_PX : 0,
+                   right = at + LINE_PX < u.width_px ? at + LINE_PX : u.width_px;
+    const struct gn_rect kept = part_of(&u, 0, at, 0, u.height_px);
+    const int32_t height = (int32_t)u.height_px;
+    gn_gl_lay_part(u.gl, &kept);
     for (int32_t row = 0, end = height; row < height; row = end, end = height)
-        if (!find_ground(f->output.turn_deg ? NULL : f->cover.captions, from, to, row, &end))
-            fill_line(s->stage.gl, from, to, (uint32_t)(height - end), (uint32_t)(height - row));
+        if (!find_ground(s->stage.shown.opts.cover.captions, left, right, row, &end))
+            fill_line(&u, left, right, (uint32_t)row, (uint32_t)end);
 }

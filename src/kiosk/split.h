@@ -15,7 +15,7 @@ struct gn_show_screen;
 struct gn_show_split {   /* zeroed: off */
     bool on, grips;      /* grips: the mouse drags the line */
     int left;            /* mode on the left; on the right is the one that is shown, or truth */
-    float at;            /* place of the line: 0 the window's left edge, 1 its right */
+    float at;            /* place of the line: 0 the picture's left edge, 1 its right */
     struct gn_view view; /* of the left mode, at the moment that is shown */
 };
 

@@ -217,7 +217,7 @@ static void test_kept_at_the_size_that_is_shown(void **state) {
     if (!gn_gl_keep(stage.gl, &err)) fail_msg("%s", err.text);
     opts.view.camera = 1;
     draw(other);
-    gn_gl_lay_beside(stage.gl, WIDTH / 2);
+    gn_gl_lay_part(stage.gl, &(struct gn_rect){0, 0, WIDTH / 2, HEIGHT});
     gn_gl_fill(stage.gl, &(struct gn_rect){WIDTH - 4, 0, 4, HEIGHT}, 1.0f);
     if (!gn_gl_read_rgba8(stage.gl, &small[0][0], &err)) fail_msg("%s", err.text);
     for (size_t y = 0; y < HEIGHT; y++) {

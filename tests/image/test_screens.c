@@ -170,6 +170,14 @@ static void measure_message(const struct screen_shown *s) {
     expect_contrast(s, ink, ground);
 }
 
+/* White with a dark rim, from the upper edge to the lower one. */
+static void expect_line(const struct screen_shown *s) {
+    const int x = (int)s->width_px / 2, rows[2] = {0, (int)s->height_px - 1};
+    for (int i = 0; i < 2; i++)
+        if (luminance(pixel_at(s, x, rows[i])) < 1 || luminance(pixel_at(s, x - 2, rows[i])) > 0)
+            FAIL(s, "no line at %d, %d", x, rows[i]);
+}
+
 static bool is_message(enum screen_state state) {
     return state == SCREEN_DARK || state == SCREEN_NO_CARD || state == SCREEN_NO_MONITOR;
 }
@@ -187,6 +195,7 @@ static void measure(const struct screen_shown *s) {
         return;
     }
     if (texts[s->state] && !s->run) FAIL(s, "no text");
+    if (s->state == SCREEN_SPLIT || s->state == SCREEN_SPLIT_HELP) expect_line(s);
     if (s->run) measure_run(s);
     for (uint32_t i = 0; s->run && i < s->run->quad_count; i++)
         if (s->state == SCREEN_PROBLEM_INFORMATION && s->run->quads[i].caption == GN_CAPTION_CARD)

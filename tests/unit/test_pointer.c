@@ -61,11 +61,12 @@ static void test_letters_files_and_handles_are_summed_up(void **state) {
     gn_pointer_letter(&more, '?');
     more.file = "a.glb";
     more.pressed = more.dragged = true;
-    more.press_x = .25f;
-    more.drag_x = .5f;
+    more.press[0] = .25f;
+    more.drag[1] = .5f;
     assert_false(gn_pointer_is_zero(&more));
     gn_pointer_add(&sum, &more);
-    gn_pointer_add(&sum, &(struct gn_pointer){.dragged = true, .drag_x = .75f, .released = true});
+    gn_pointer_add(&sum,
+                   &(struct gn_pointer){.dragged = true, .drag = {0, .75f}, .released = true});
     assert_int_equal(sum.key_count, 3);
     assert_true(sum.keys[0].key == GN_KEY_N && sum.letters[0] == 'n');
     assert_true(sum.keys[1].key == GN_KEY_N && !sum.keys[1].down && !sum.letters[1]);
@@ -75,8 +76,8 @@ static void test_letters_files_and_handles_are_summed_up(void **state) {
     assert_int_equal(sum.letters[GN_POINTER_KEYS_MAX - 1], 'a');
     assert_string_equal(sum.file, "a.glb");
     assert_true(sum.pressed && sum.dragged && sum.released);
-    assert_float_equal((double)sum.press_x, .25, 0);
-    assert_float_equal((double)sum.drag_x, .75, 0);
+    assert_float_equal((double)sum.press[0], .25, 0);
+    assert_float_equal((double)sum.drag[1], .75, 0);
 }
 
 static void test_a_window_without_height_has_no_drags(void **state) {

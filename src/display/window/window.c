@@ -135,10 +135,13 @@ static void on_drop(GLFWwindow *handle, int count, const char **paths) {
     w->pointer.file = w->dropped;
 }
 
-static float across_window(const struct window *w, double x) {
+static bool find_in_window(const struct window *w, double x, double y, float out[2]) {
     int width = 0, height = 0;
     glfw.GetWindowSize(w->handle, &width, &height);
-    return width > 0 ? (float)(x / width) : 0.0f;
+    if (width <= 0 || height <= 0) return false;
+    out[0] = (float)(x / width);
+    out[1] = (float)(y / height);
+    return true;
 }
 
 static void on_button(GLFWwindow *handle, int button, int event, int modifiers) {
@@ -152,7 +155,7 @@ static void on_button(GLFWwindow *handle, int button, int event, int modifiers) 
     const bool presses = event == GLFW_PRESS && !(modifiers & GLFW_MOD_SHIFT);
     w->pointer.pressed |= presses;
     w->pointer.released |= event == GLFW_RELEASE;
-    if (presses) w->pointer.press_x = across_window(w, w->drag.x);
+    if (presses) find_in_window(w, w->drag.x, w->drag.y, w->pointer.press);
 }
 
 static void on_move(GLFWwindow *handle, double x, double y) {
@@ -160,9 +163,8 @@ static void on_move(GLFWwindow *handle, double x, double y) {
     int width = 0, height = 0;
     glfw.GetWindowSize(handle, &width, &height);
     gn_drag_move(&w->drag, x, y, height, &w->pointer);
-    if (!w->drag.drags || w->drag.pans || width <= 0) return;
-    w->pointer.dragged = true;
-    w->pointer.drag_x = (float)(x / width);
+    if (w->drag.drags && !w->drag.pans)
+        w->pointer.dragged |= find_in_window(w, x, y, w->pointer.drag);
 }
 
 static void on_wheel(GLFWwindow *handle, double x, double y) {
