@@ -16,7 +16,7 @@ const char *const gn_health_cures[GN_HEALTH_COUNT] = {
                           "devices a supply of their own",
     [GN_HEALTH_THROTTLED] = "cool the board: a heat sink, a fan, or air around its case",
     [GN_HEALTH_CMA] = "set a larger cma= on the kernel's command line (on a Raspberry Pi: "
-                      "dtoverlay=vc4-kms-v3d,cma-512), or a smaller mode",
+                      "dtoverlay=vc4-kms-v3d,cma-512), or a lower resolution",
 };
 
 /* ---- texts of the kernel --------------------------------------------------------------------- */

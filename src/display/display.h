@@ -104,7 +104,7 @@ struct gn_display_ops {
     const struct gn_screen_ops *screen; /* NULL: headless */
 };
 /* Shown where GL does not start: for whoever stands before the screen. */
-#define GN_DISPLAY_NO_GL "The graphics do not work: \"gnomon doctor\" has the reason"
+#define GN_DISPLAY_NO_GL "Out of order: no graphics. \"gnomon doctor\" shows why."
 
 struct gn_screen_ops { /* see the functions of the same names */
     bool (*open)(struct gn_display *display, const struct gn_screen_opts *opts, int64_t now_ns,

@@ -52,7 +52,9 @@ static void fail_place(struct gn_show_screen *s, enum gn_kiosk_event_kind kind, 
                        const char *why) {
     const bool of_mode = kind == GN_KIOSK_MODE_FAILED;
     *(of_mode ? &s->show->problems.mode : &s->show->problems.scene) = number;
-    gn_problem_report(&s->show->problems, of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE, why);
+    const enum gn_problem problem = of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE;
+    gn_problem_report(&s->show->problems, problem, why);
+    gn_problem_repeat(&s->show->problems, problem); /* its caption names what was asked for now */
     if (!of_mode) gn_parts_loaded(&s->show->parts, GN_PART_LOAD_SCENE);
     gn_show_send(s, (struct gn_kiosk_event){.kind = kind, .mode = number, .scene = number});
     gn_latency_drop(&s->show->buttons.latency);

@@ -112,7 +112,7 @@ static const char *mode_text(const struct gn_show_screen *s, const struct gn_kio
     const char *title = modes->titles[view->caption_mode];
     const bool waits = view->mode != view->caption_mode, /* the picture is not of that yet */
         only = modes->count == 1 && !s->rules.names_first && !s->rules.replays;
-    snprintf(out, size, "%s%s", title, waits ? " .." : only ? ": the only mode" : "");
+    snprintf(out, size, "%s%s", title, waits ? " .." : only ? ": there is only this view" : "");
     return out;
 }
 
@@ -131,7 +131,9 @@ static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_v
                  view->scene != view->caption_scene ? " .." : "");
         return t->change;
     case GN_KIOSK_CAPTION_CAMERA:
-        return s->stage.scene->cameras[s->stage.shown.opts.view.camera].name;
+        return s->stage.scene->camera_count > 0
+                   ? s->stage.scene->cameras[s->stage.shown.opts.view.camera].name
+                   : "There is only this view";
     case GN_KIOSK_CAPTION_NOTE: return s->viewer.note;
     case GN_KIOSK_CAPTION_PROBLEM: {
         const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);

@@ -48,7 +48,7 @@ static void fill_screenshot(struct gn_show_screen *s, struct gn_screenshot *shot
 static void keep_picture(struct gn_show_screen *s) {
     struct gn_err why = {0};
     if (!gn_gl_keep(s->stage.gl, &why)) {
-        gn_problem_report(&s->show->problems, GN_PROBLEM_CONFIG, why.text);
+        gn_problem_report(&s->show->problems, GN_PROBLEM_START, why.text);
         s->rules.fade_ns = 0; /* disables fades */
     }
     s->fade.keeps = false;

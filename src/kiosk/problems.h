@@ -35,6 +35,8 @@ struct gn_problems {                /* zeroed: none */
 /* Prints a text that differs from the last of its kind as a warning to stderr. */
 void gn_problem_report(struct gn_problems *problems, enum gn_problem kind, const char *text);
 void gn_problem_cure(struct gn_problems *problems, enum gn_problem kind);
+/* It happened once more: it is the last one again. */
+void gn_problem_repeat(struct gn_problems *problems, enum gn_problem kind);
 /* The last that is not cured, or NULL. */
 const char *gn_problem_last(const struct gn_problems *problems);
 /* The kind of that; GN_PROBLEM_COUNT: none. */

@@ -78,6 +78,10 @@ void gn_show_drop_reload(struct gn_show *s) {
     s->reload = (struct gn_show_reload){0};
 }
 
+static enum gn_problem kind_of(const struct gn_err *why) {
+    return why->status == GN_EXIT_USAGE ? GN_PROBLEM_CONFIG : GN_PROBLEM_FIRST;
+}
+
 /* The last good configuration stays. The error is shown on the screen, but one of ctl's file is the
  * client's alone. */
 static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct gn_err *why) {
@@ -86,7 +90,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     if (cause == GN_RELOAD_FILE) return;
     gn_parts_loaded(&s->parts, GN_PART_LOAD_FAILED);
     if (cause != GN_RELOAD_ASKED) {
-        gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, why->text);
+        gn_problem_report(&s->problems, kind_of(why), why->text);
         gn_show_send(&s->screen, (struct gn_kiosk_event){.kind = GN_KIOSK_NOTE,
                                                          .caption = GN_KIOSK_CAPTION_PROBLEM});
         s->screen.changed = true;
@@ -94,12 +98,12 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     }
     snprintf(s->config.error, sizeof s->config.error, "%s", why->text);
     s->config.options->config_error = s->config.error;
-    s->config.kind = why->status == GN_EXIT_USAGE ? GN_PROBLEM_CONFIG : GN_PROBLEM_FIRST;
+    s->config.kind = kind_of(why);
     snprintf(s->config.shown, sizeof s->config.shown, "%s", why->shown);
     s->screen.changed = true;
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
-    gn_problem_report(&s->problems, GN_PROBLEM_CONFIG, text);
+    gn_problem_report(&s->problems, s->config.kind, text);
 }
 
 /* ---- the steps ------------------------------------------------------------------------------ */

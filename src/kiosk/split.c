@@ -20,7 +20,7 @@ void gn_split_toggle(struct gn_show_screen *s) {
         return;
     }
     if (s->show->modes.count < 2) {
-        gn_show_note(s, "%s: the only mode", s->show->modes.titles[0]);
+        gn_show_note(s, "There is only this view");
         return;
     }
     s->split = (struct gn_show_split){.on = true, .left = s->kiosk.shown.mode, .at = 0.5f};

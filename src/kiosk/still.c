@@ -114,7 +114,7 @@ static bool warm_hours(struct gn_show_screen *s, const struct gn_frame_opts *ove
 static void fail_hours(struct gn_show_screen *s, const struct gn_err *err) {
     s->still.never = true;
     fprintf(stderr, "gnomon: warning: %s\n", err->text);
-    gn_show_note(s, "Hours of sun: not here");
+    gn_show_note(s, "Hours of sun cannot be shown here");
 }
 
 static void prepare_hours(struct gn_show_screen *s, const struct gn_frame_opts *over) {

@@ -75,7 +75,7 @@ static void keep_mark(struct trial *t, unsigned tries) {
                               t->tried, t->proven);
     if (gn_file_keep(&gn_disk, t->path, text, (size_t)size, &err)) return;
     snprintf(why, sizeof why, "%.400s (what is new is shown without a trial)", err.text);
-    gn_problem_report(t->host->problems, GN_PROBLEM_TRIAL, why);
+    gn_problem_report(t->host->problems, GN_PROBLEM_STATE, why);
 }
 
 /* What is proven already, and nothing, is not tried. */

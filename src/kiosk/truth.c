@@ -38,7 +38,7 @@ void gn_truth_end(struct gn_show_screen *s) {
 
 void gn_truth_begin(struct gn_show_screen *s) {
     if (s->stage.display.screen.rotate_deg != 0) {
-        gn_show_note(s, "Ray tracing: not on a rotated screen");
+        gn_show_note(s, "No ray tracing on a rotated screen");
         return;
     }
     gn_truth_drop(s);
@@ -53,7 +53,7 @@ void gn_truth_step(struct gn_show_screen *s) {
     if (!t->on) return;
     if (!s->kiosk.paused) {
         gn_truth_end(s);
-        gn_show_note(s, "The scene moves on: no ray tracing");
+        gn_show_note(s, "Ray tracing ended: the scene moves");
         return;
     }
     if (!t->rays || t->shown) return;
@@ -117,7 +117,7 @@ const struct gn_plan *gn_truth_draw(struct gn_show_screen *s, int64_t time_ns, s
                !begin_rays(s, &why)) {
         gn_truth_end(s);
         fprintf(stderr, "gnomon: warning: %s\n", why.text);
-        gn_show_note(s, "Ray tracing: this scene has none");
+        gn_show_note(s, "This scene cannot be ray traced");
     }
     return gn_view_draw(view, &s->stage, time_ns, s->show->warnings, err);
 }

@@ -75,7 +75,7 @@ static void choose_camera(struct gn_show_screen *s, int number) {
 static void change_speed(struct gn_show_screen *s, int by) {
     gn_show_send(s, (struct gn_kiosk_event){.kind = GN_KIOSK_SPEED, .by = by});
     if (s->kiosk.speed >= 0)
-        gn_show_note(s, "Speed x%d", 1 << s->kiosk.speed);
+        gn_show_note(s, s->kiosk.speed ? "Speed x%d" : "Normal speed", 1 << s->kiosk.speed);
     else
         gn_show_note(s, "Speed 1/%d", 1 << -s->kiosk.speed);
 }
@@ -83,7 +83,7 @@ static void change_speed(struct gn_show_screen *s, int by) {
 static bool set_option(struct gn_show_screen *s, const char *key, const char *value) {
     struct gn_err err = {0};
     if (gn_show_set_option(s, gn_changes_find(key, &err), value, &err)) return true;
-    show_failure(s, "Not changed", &err);
+    show_failure(s, "That cannot be changed", &err);
     return false;
 }
 
@@ -243,7 +243,7 @@ void gn_viewer_hint(struct gn_show_screen *s) {
     if (v->hinted || s->show->reload.first || s->kiosk.seen_ns == 0 || s->kiosk.caption) return;
     v->hinted = true;
     if (own && gn_buttons_have_key(own, gn_key_find("h"))) return;
-    gn_show_note(s, "h - keys");
+    gn_show_note(s, "Press h for help");
     v->note_ns = HINT_NS;
 }
 

@@ -132,7 +132,7 @@ void gn_stage_sun_print(const struct gn_settings *settings, double utc_s, char *
     const double hour_deg = gn_sun_view(utc_s, &place).hour_angle_deg;
     const int minute = (int)floor((hour_deg + 180) * 4) % 1440;
     gn_date_print(utc_s, settings->sun.time_zone, clock, sizeof clock);
-    snprintf(out, size, "%s; by the sun %02d:%02d", clock, minute / 60, minute % 60);
+    snprintf(out, size, "%s (sundial time %02d:%02d)", clock, minute / 60, minute % 60);
 }
 
 static double pixel_m(const struct gn_pose *pose, const struct gn_frame_opts *opts) {

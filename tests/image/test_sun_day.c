@@ -298,12 +298,12 @@ static void steps_show_other_hours_and_days(void **state) {
     (void)state;
     static const struct {
         const char *step, *date, *text;
-    } rows[] = {{"+1h", "2026-06-21T11:00Z", "21 June 2026, 11:00; by the sun 11:51"},
-                {"+1h", "2026-06-21T12:00Z", "21 June 2026, 12:00; by the sun 12:51"},
-                {"-15m", "2026-06-21T11:45Z", "21 June 2026, 11:45; by the sun 12:36"},
-                {"-26w", "2025-12-21T11:45Z", "21 December 2025, 11:45; by the sun 12:40"},
-                {"+1d", "2025-12-22T11:45Z", "22 December 2025, 11:45; by the sun 12:39"},
-                {"now", "2026-06-21T10:00Z", "21 June 2026, 10:00; by the sun 10:51"}};
+    } rows[] = {{"+1h", "2026-06-21T11:00Z", "21 June 2026, 11:00 (sundial time 11:51)"},
+                {"+1h", "2026-06-21T12:00Z", "21 June 2026, 12:00 (sundial time 12:51)"},
+                {"-15m", "2026-06-21T11:45Z", "21 June 2026, 11:45 (sundial time 12:36)"},
+                {"-26w", "2025-12-21T11:45Z", "21 December 2025, 11:45 (sundial time 12:40)"},
+                {"+1d", "2025-12-22T11:45Z", "22 December 2025, 11:45 (sundial time 12:39)"},
+                {"now", "2026-06-21T10:00Z", "21 June 2026, 10:00 (sundial time 10:51)"}};
     enum { COUNT = sizeof rows / sizeof rows[0] };
     static uint8_t expected[COUNT][BYTES];
     struct reference r = {0};

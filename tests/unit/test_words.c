@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "kiosk/info_page.h"
 #include "options/args.h"
+#include "options/viewer_keys.h"
 #include "shadow/technique.h"
 #include "unit/options_help.h"
 
@@ -73,6 +74,14 @@ static void tables_have_plain_words(void **state) {
     }
 }
 
+static void keys_have_plain_words(void **state) {
+    (void)state;
+    for (const struct gn_viewer_key *row = gn_viewer_keys; row->name; row++) {
+        expect_plain(row->name);
+        expect_plain(row->meaning);
+    }
+}
+
 /* What the kiosk's sources give to the functions that show a text; err.text is given to none. */
 static void calls_have_plain_words(void **state) {
     static const char *const shows[] = {"gn_show_note(", "gn_captions_set(", "show_failure(s",
@@ -113,15 +122,19 @@ static void wrong_lines_are_named_without_values_of_that_kind(void **state) {
         const char *line, *shown;
     } lines[] = {
         {"[render]\nshdow = none\n", "there is no key \"shdow\" in [render]. Did you mean shadow"},
-        {"[render]\nshadow = pcff\n", "\"shadow\" has a value that it cannot have."},
-        {"[render]\nshadow = smsn\n", "\"shadow\" has a value that it cannot have."},
-        {"[render]\nmsaa = /etc/passwd\n", "\"msaa\" has a value that it cannot have."},
+        {"[render]\nshadow = pcff\n", "\"shadow\" is set to a value that is not allowed."},
+        {"[render]\nshadow = smsn\n", "\"shadow\" is set to a value that is not allowed."},
+        {"[render]\nmsaa = /etc/passwd\n", "\"msaa\" is set to a value that is not allowed."},
         {"[render]\naov = colour\n", "\"aov\" cannot be \"colour\". Did you mean color?"},
         {"[rendr]\nmap = 64\n", "the section [rendr] cannot be used. Did you mean render"},
         {"[kiosk]\nidle = frist\n", "\"idle\" cannot be \"frist\". Did you mean first?"},
         {"[mode \"a name of more than forty-eight characters, by far\"]\n",
          "a name of more than 48"},
         {"[mode A]\n", "expected [section] or [section \"NAME\"]"},
+        {"[render]\nplanr = 1\n", "there is no key \"planr\" in [render]."},
+        {"[render]\nidle = 3\n", "there is no key \"idle\" in [render]. It belongs in [kiosk]."},
+        {"[render]\nmsaa = 4\nmsaa = 4\n", "\"msaa\" cannot be set here."},
+        {"[mode]\nmap = 64\n", "[mode] cannot be used. It needs a name: [mode \"NAME\"]."},
         {"[button \"b\"]\nkeys = x\n", "the button \"b\" cannot be used."},
         {"[button \"b\"]\nkeys = x\npress = mode pcfx\n", "the button \"b\" cannot be used."},
     };
@@ -154,6 +167,7 @@ static void at_most_three_are_suggested_the_nearest_first(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(tables_have_plain_words),
+        cmocka_unit_test(keys_have_plain_words),
         cmocka_unit_test(calls_have_plain_words),
         cmocka_unit_test(wrong_lines_are_named_without_values_of_that_kind),
         cmocka_unit_test(at_most_three_are_suggested_the_nearest_first),
