@@ -1,8 +1,9 @@
-/* An unseen floor under the made light, while nothing that casts can move: what it takes from the
- * picture does not depend on the eye, and is gathered in a texture of alpha. Its mask is the mean
- * of the shadows of points of the lamp, as of planar shadows; a filter step makes alpha of that and
- * of the floor's occlusion; the floor is drawn with one lookup. The light's own map has the model
- * as its only receiver then, and finer texels. */
+/* An unseen floor under the made light: what it takes from the picture does not depend on the eye,
+ * and is gathered in a texture of alpha. Its mask is the mean of the shadows of points of the lamp,
+ * as of planar shadows; a filter step makes alpha of that and of the floor's occlusion; the floor
+ * is drawn with one lookup. The light's own map has the model as its only receiver then, and finer
+ * texels. Where a caster can move all is done in each frame, with fewer points and texels: on a
+ * Pi 4 that costs less than looking the cones up in each of the floor's pixels. */
 #include <cglm/cglm.h>
 #include <math.h>
 #include <string.h>
@@ -18,6 +19,11 @@ enum {
     MOST_TRIANGLES = 500000, /* with more the floor is drawn with the light's own map */
     LEAST_POINTS = 16,       /* in the first frame; then as many as this many triangles allow */
     FRAME_TRIANGLES = 500000,
+    MOVING_POINTS = 64, /* where a caster moves, all in each frame; */
+    FEW_MOVING_POINTS = 32,
+    FEW_MOVING_ABOVE = 1500,
+    MOST_MOVING_TRIANGLES = 8000,
+    MOVING_PX = 512, /* side of a mask that is filtered in each frame, too */
 };
 
 static bool is_soft_and_made(const struct gn_frame *frame, const struct gn_frame_light *light) {
@@ -50,7 +56,8 @@ void gn_frame_take_floor(struct gn_frame *frame, const struct gn_pose *pose,
     if (!scene->added.light || !scene->added.floor || frame->light_count != 1 ||
         frame->view_count != 1 || scene->triangle_count > MOST_TRIANGLES ||
         (opts->debug.aov != GN_AOV_COLOR && opts->debug.aov != GN_AOV_VISIBILITY) ||
-        !is_soft_and_made(frame, &frame->lights[0]) || !gn_frame_casters_stand(pose))
+        !is_soft_and_made(frame, &frame->lights[0]) ||
+        (!gn_frame_casters_stand(pose) && scene->triangle_count > MOST_MOVING_TRIANGLES))
         return;
     frame->floor.item = floor_of(scene);
     frame->floor.is_apart =
@@ -71,6 +78,11 @@ void gn_frame_want_floor(const struct gn_frame *frame, const struct gn_pose *pos
     wanted->moments = color ? GN_MOMENTS_FLOOR : GN_MOMENTS_NONE;
     wanted->plane = 1;
     wanted->points = scene->triangle_count > FEW_ABOVE ? FEW_POINTS : POINTS;
+    if (!gn_frame_casters_stand(pose)) {
+        wanted->points =
+            scene->triangle_count > FEW_MOVING_ABOVE ? FEW_MOVING_POINTS : MOVING_POINTS;
+        wanted->map_px = MOVING_PX;
+    }
     wanted->whole = true;
     wanted->but_floor = false;
     wanted->cascades = 1;

@@ -220,7 +220,7 @@ uint64_t gn_frame_filter_hash(const struct gn_shadow_view *view, uint32_t tile);
  */
 void gn_frame_hold_maps(struct gn_frame *frame, const struct gn_frame_opts *opts);
 
-/* ---- floor.c: an unseen floor, while nothing that casts can move ---- */
+/* ---- floor.c: an unseen floor ---- */
 
 /* Whether something casts, and nothing that does can move. */
 bool gn_frame_casters_stand(const struct gn_pose *pose);
