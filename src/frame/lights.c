@@ -92,7 +92,8 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
         light->moments = gn_moments_choose(technique->stores, moments,
                                            gn_caps_moments(&frame->caps), &moments_fell_back);
     const bool wants_map = encoding != GN_ENCODING_AUTO, wants_moments = moments;
-    if ((filters_map ? moments_fell_back || wants_map : wants_moments) &&
+    const bool has_map = wants_map && light->encoding == encoding; /* it reads map and moments */
+    if ((filters_map ? moments_fell_back || (wants_map && !has_map) : wants_moments) &&
         gn_frame_notice(said, GN_NOTICE_ENCODING, warnings))
         gn_warn(warnings, "%s does not support map format %s%s; using %s", technique->name,
                 wants_map ? gn_encodings[encoding].name : gn_moments[moments].name,

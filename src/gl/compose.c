@@ -105,8 +105,8 @@ static bool add_layers(struct gn_gl_source *source, const struct gn_program_key 
     return true;
 }
 
-/* A lookup is the code for one technique, encoding and moments. Its number, the suffix, is that of
- * the first light that has the same of them as light i. */
+/* A lookup is the code for one technique, encoding, moments, filter and taps. Its number, the
+ * suffix, is that of the first light that has the same of them as light i. */
 static int lookup_of(const struct gn_program_key *key, int i) {
     const struct gn_light_key *light = &key->lights[i];
     for (int first = 0;; first++) {

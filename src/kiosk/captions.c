@@ -36,7 +36,8 @@ static const char *write_title(const char *path, char out[120]) {
     return out;
 }
 
-/* What config_error has; false: nothing. */
+/* What config_error has; false: nothing. An error of run time (keep_old() of reload.c,
+ * gn_show_report_error()) stands in s->config with its words, one of the start in the options. */
 static bool find_lasting(const struct gn_show *s, const struct gn_problem_words **words,
                          const char **shown) {
     const struct gn_options *o = s->config.options;

@@ -22,7 +22,8 @@ bool gn_content_open(struct gn_contents *content, struct gn_loop *loop);
 void gn_content_close(struct gn_contents *content); /* legal when not open */
 /* Waits for these files from now on, and for those that a .gltf of them refers to. NULL and ""
  * among them are left out. Of a file that was waited for already what was known stays. missed: a
- * file that is new here counts as changed, since a load of it failed. */
+ * load of them failed; a file that is new here counts as changed then, since it may have been
+ * completed between that load and this call. */
 void gn_content_follow(struct gn_contents *content, const char *const *paths, int count,
                        bool missed);
 

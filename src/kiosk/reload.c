@@ -1,8 +1,8 @@
 /* Reload (SIGHUP, ctl): all options are read again, a thread loads the scene, and work ahead puts
  * it on the GPU, while frames go on. If one fails the kiosk keeps the last good configuration and
- * its picture; but once the old scene is gone (take_reload()) a failure ends the kiosk, but one of
- * GL is shown as a text (screen.c); its request was answered before. The first load is one, too,
- * once it takes over a second: until then a black stage is the last good one. */
+ * its picture; but once the old scene is gone (take_reload()), when its client has its answer, a
+ * failure ends the kiosk, or is shown as a text if it is one of GL (screen.c). The first load is
+ * one, too, once it takes over a second: until then a black stage is the last good one. */
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>

@@ -18,7 +18,8 @@ enum gn_reload_cause {
     GN_RELOAD_ASKED, /* SIGHUP, ctl reload */
     GN_RELOAD_FILE,  /* ctl scene and rollback: a failure is told to the client alone */
     GN_RELOAD_DROP,  /* a file dropped onto the window: a caption has a failure for a while */
-    GN_RELOAD_SEEN,  /* a file that is shown has changed: likewise */
+    GN_RELOAD_SEEN,  /* a file that is shown has changed: likewise; but an error of kiosk.ini
+                         stays, as of ASKED */
 };
 struct gn_show_wish { /* begins when `reloads` is set and the first scene is there */
     enum gn_reload_cause cause;
@@ -35,8 +36,9 @@ struct gn_show_reload {
     char why[GN_SHOW_WHY]; /* why the built-in scene replaces the first one; "": it does not */
 };
 
-/* If one is wanted (show->wish): reads the options again into show->reload; gn_show_step_reload()
- * loads their scene, or the wish's file in all modes. An unfinished reload is dropped. */
+/* If one is wanted (`reloads`, with show->wish): reads the options again into show->reload;
+ * gn_show_step_reload() loads their scene, or the wish's file in all modes. An unfinished reload is
+ * dropped. */
 void gn_show_reload(struct gn_show *show);
 /* The same with another scene in all modes, as a file that is dropped onto the window. If it cannot
  * be loaded a caption has the reason for a while. */

@@ -32,8 +32,8 @@ struct load {
     struct gn_options *options;
     const char *path;
     const struct gn_config_over *over;    /* NULL: it is the machine's own */
-    const struct gn_section_row *section; /* that is read */
-    struct gn_section *one;               /* of many: which; else NULL */
+    const struct gn_section_row *section; /* that is read: its kind; */
+    struct gn_section *one; /* and of many the one of that name, as [mode "Soft"]; else NULL */
     struct gn_sections many[GN_SECTION_COUNT];
     int lines[GN_OPTION_COUNT]; /* where each was set in sections that are not of many */
 };

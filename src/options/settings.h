@@ -1,7 +1,8 @@
 /* Settings: a value for each option of the table, resolved, and where each comes from. They are
  * made once, as the configuration is read (options.h): one for each mode, one without. Drawing
  * never changes them, and entering a mode is choosing a pointer; `ctl set` replaces them by others
- * (change.h), and the kiosk's first load may replace the scene (kiosk/begin.c). */
+ * (change.h), and the kiosk puts other scenes in their place (kiosk/begin.c, reload.c, offers.c).
+ */
 #ifndef GN_OPTIONS_SETTINGS_H
 #define GN_OPTIONS_SETTINGS_H
 

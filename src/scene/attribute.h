@@ -44,7 +44,8 @@ enum {
 };
 #undef GN_X
 
-/* In the scene, and how a GPU gets it. Those of skins come last (geometry.c). */
+/* In the scene, and how a GPU gets it. The formats of skins stand last here: their attributes are
+ * read by gn_skin_put_vertices(). */
 enum gn_attribute_format {
     GN_ATTRIBUTE_FLOAT,   /* floats; the same */
     GN_ATTRIBUTE_SNORM16, /* floats -1..1; four shorts */

@@ -20,7 +20,7 @@ static bool position_is_usable(const float *p) {
 struct gather {
     const struct gn_accessor *accessor;
     const uint32_t *source;
-    size_t first, count;
+    size_t first, count; /* first: of the scene's vertices, for who calls */
 };
 
 /* Copies elements as floats; missing components stay as they are. */

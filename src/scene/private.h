@@ -138,7 +138,7 @@ struct gn_gltf_file { /* what the file declares, by its own numbers */
 };
 struct gn_gltf_primitives { /* of the meshes in use, mesh by mesh, and what they share */
     struct gn_primitive *list;
-    struct gn_shape *shapes; /* scene->geometry_count */
+    struct gn_shape *shapes; /* shapes[i]: what scene->geometries[i] is made of */
     struct gn_vertices *vertices;
     size_t count, vertices_count;
 };

@@ -261,7 +261,7 @@ struct gn_scene_buffers { /* vertices and indices of all geometries */
     union { /* the rows of scene/attribute.h, an array each; NULL if no geometry has any */
         struct {
 #define GN_X(NAME, name, type, field, ...) type *field;
-            GN_ATTRIBUTES(GN_X) /* positions, normals, uv0, uv1, tangents, colors */
+            GN_ATTRIBUTES(GN_X) /* positions, normals, uv0 .. joints1, weights1, colors */
 #undef GN_X
         };
         void *attributes[GN_ATTRIBUTE_COUNT];

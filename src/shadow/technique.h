@@ -21,7 +21,8 @@ enum gn_technique {
 };
 #undef ROW
 
-/* How a map stores the distance from the light. All are cleared to the light's far end. */
+/* How a map stores the distance from the light. Unless map_clear is near, they are
+ * cleared to the light's far end. */
 enum gn_encoding {
     GN_ENCODING_DEPTH, /* depth texture, hardware compare */
     GN_ENCODING_R32UI, /* bits of the float distance in metres */
@@ -55,7 +56,8 @@ struct gn_technique_row {
     bool on_screen;      /* no map is drawn: encoding SCREEN */
     bool soft;           /* penumbrae by the light's size: the map includes their width */
     enum gn_taps taps;
-    enum gn_filter filter; /* passes convert the map into moments, which it reads; else NONE */
+    enum gn_filter filter; /* passes convert the map into what it reads, here called moments, cone
+                              maps too; else NONE */
     bool reads_both;       /* and reads the map beside them, a depth map, with hardware compare */
     const char *moments;   /* below shaders_es/: converts a code to moments; NULL: the filter's
                               steps know */
@@ -77,7 +79,7 @@ extern const struct gn_technique_row gn_techniques[GN_TECHNIQUE_ALL];
 
 struct gn_encoding_row {
     const char *name;     /* as in --map-format */
-    const char *file;     /* below shaders_es/ */
+    const char *file;     /* below shaders_es/; with hardware compare gl/compose.c has another */
     unsigned texel_bytes; /* with its depth attachment */
 };
 extern const struct gn_encoding_row gn_encodings[GN_ENCODING_ALL];
@@ -128,7 +130,8 @@ bool gn_technique_find(const char *name, size_t length, enum gn_technique *out);
 /* The encoding that a technique gets: the wanted one, or for AUTO the first in the technique's
  * order that `proved` (a bit per encoding) has, else RGBA8. Where the wanted one is missing,
  * *fell_back is set and the automatic one taken. On the plane it is MASK, whatever is wanted; a map
- * that is filtered has one that loses nothing, and it is its moments that can be wanted;
+ * that is filtered has one that loses nothing, and it is its moments that can be wanted, but of a
+ * technique that reads both a depth format can be;
  * STENCIL is for who draws the picture to choose. */
 enum gn_encoding gn_encoding_choose(enum gn_technique technique, enum gn_encoding wanted,
                                     uint32_t proved, bool *fell_back);

@@ -1,5 +1,5 @@
-/* Settings of the lights of a scene: of all lights, of the made light ([light] of the
- * configuration) and of one light ([light "NAME"]). */
+/* Settings of the lights of a scene: of all lights, of the made light (the key light of the
+ * manuals) ([light] of the configuration) and of one light ([light "NAME"]). */
 #ifndef GN_STAGE_LIGHTS_H
 #define GN_STAGE_LIGHTS_H
 
