@@ -132,9 +132,9 @@ static const char *change_text(struct gn_show_screen *s, const struct gn_kiosk_v
                  view->scene != view->caption_scene ? " .." : "");
         return t->change;
     case GN_KIOSK_CAPTION_CAMERA:
-        return s->stage.scene->camera_count > 0
-                   ? s->stage.scene->cameras[s->stage.shown.opts.view.camera].name
-                   : "There is only this view";
+        return s->stage.scene->added.camera
+                   ? "There is only this view"
+                   : s->stage.scene->cameras[s->stage.shown.opts.view.camera].name;
     case GN_KIOSK_CAPTION_NOTE: return s->viewer.note;
     case GN_KIOSK_CAPTION_PROBLEM: {
         const enum gn_problem kind = gn_problem_last_kind(&s->show->problems);
