@@ -1,15 +1,15 @@
 #include "caption/message.h"
 
 #include "caption/captions.h"
+#include "core/turn.h"
 
 static const int ground[3] = {0x20, 0x24, 0x28}, ink = 0xe8; /* red, green, blue; of each */
 
 /* The pixel at column u of row v of the upright picture. */
 static uint8_t *pixel_at(const struct gn_message_picture *p, uint32_t u, uint32_t v) {
-    const uint32_t w = p->width_px, h = p->height_px;
-    const uint32_t at[4][2] = {
-        {u, v}, {w - 1 - v, u}, {w - 1 - u, h - 1 - v}, {v, h - 1 - u}}; /* clockwise */
-    const uint32_t *to = at[p->turn_deg / 90 % 4];
+    const struct gn_turn turn = {p->turn_deg, p->width_px, p->height_px};
+    uint32_t to[2];
+    gn_turn_place(&turn, u, v, to);
     return p->pixels + to[1] * p->stride + 4ul * to[0];
 }
 

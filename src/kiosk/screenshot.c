@@ -15,6 +15,7 @@
 #include "core/arena.h"
 #include "core/file.h"
 #include "core/thread.h"
+#include "core/turn.h"
 #include "image/write.h"
 
 struct gn_screenshot {
@@ -132,13 +133,10 @@ uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint
 
 /* The index of pixel (u, v) of the upright picture in the turned one. */
 static size_t pixel_index(const struct gn_screenshot *s, uint32_t u, uint32_t v) {
-    const uint32_t w = s->width_px, h = s->height_px;
-    switch (s->turn_deg) {
-    case 90: return (size_t)u * w + (w - 1 - v);
-    case 180: return (size_t)(h - 1 - v) * w + (w - 1 - u);
-    case 270: return (size_t)(h - 1 - u) * w + v;
-    default: return (size_t)v * w + u;
-    }
+    const struct gn_turn turn = {s->turn_deg, s->width_px, s->height_px};
+    uint32_t to[2];
+    gn_turn_place(&turn, u, v, to);
+    return (size_t)to[1] * s->width_px + to[0];
 }
 
 static void signal_done(const struct gn_screenshot *shot) {

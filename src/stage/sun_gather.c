@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/srgb.h"
+#include "core/turn.h"
 #include "image/write.h"
 #include "stage/hours_picture.h"
 
@@ -43,11 +44,10 @@ static uint32_t upright_height(const struct gn_sun_gather *g) {
 
 /* The pixel of the output at that one of the upright picture. */
 static size_t place_of(const struct gn_sun_gather *g, uint32_t u, uint32_t v) {
-    const uint32_t w = g->width_px, h = g->height_px;
-    const uint32_t at[4][2] = {
-        {u, v}, {w - 1 - v, u}, {w - 1 - u, h - 1 - v}, {v, h - 1 - u}}; /* clockwise */
-    const uint32_t *to = at[g->turn_deg / 90 % 4];
-    return (size_t)to[1] * w + to[0];
+    const struct gn_turn turn = {g->turn_deg, g->width_px, g->height_px};
+    uint32_t to[2];
+    gn_turn_place(&turn, u, v, to);
+    return (size_t)to[1] * g->width_px + to[0];
 }
 
 /* ---- gathering ---- */
