@@ -56,9 +56,10 @@ void gn_frame_take_floor(struct gn_frame *frame, const struct gn_pose *pose,
     if (!scene->added.light || !scene->added.floor || frame->light_count != 1 ||
         frame->view_count != 1 || scene->triangle_count > MOST_TRIANGLES ||
         (opts->debug.aov != GN_AOV_COLOR && opts->debug.aov != GN_AOV_VISIBILITY) ||
-        !is_soft_and_made(frame, &frame->lights[0]) ||
-        (!gn_frame_casters_stand(pose) && scene->triangle_count > MOST_MOVING_TRIANGLES))
+        !is_soft_and_made(frame, &frame->lights[0]))
         return;
+    frame->floor.stands = gn_frame_casters_stand(pose);
+    if (!frame->floor.stands && scene->triangle_count > MOST_MOVING_TRIANGLES) return;
     frame->floor.item = floor_of(scene);
     frame->floor.is_apart =
         pose->items[frame->floor.item].visible && scene->items[frame->floor.item].plane == 1;
@@ -78,7 +79,7 @@ void gn_frame_want_floor(const struct gn_frame *frame, const struct gn_pose *pos
     wanted->moments = color ? GN_MOMENTS_FLOOR : GN_MOMENTS_NONE;
     wanted->plane = 1;
     wanted->points = scene->triangle_count > FEW_ABOVE ? FEW_POINTS : POINTS;
-    if (!gn_frame_casters_stand(pose)) {
+    if (!frame->floor.stands) {
         wanted->points =
             scene->triangle_count > FEW_MOVING_ABOVE ? FEW_MOVING_POINTS : MOVING_POINTS;
         wanted->map_px = MOVING_PX;

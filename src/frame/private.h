@@ -84,6 +84,7 @@ struct gn_frame {
     struct {
         bool is_apart;       /* the unseen floor has a texture of its alpha, in place of the made
                                 light's own map */
+        bool stands;         /* nothing that casts on it can move */
         uint32_t slot, item; /* of that; the floor */
     } floor;
     struct {
