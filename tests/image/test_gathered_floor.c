@@ -36,19 +36,7 @@ static void add_camera(struct gn_maker *maker) {
                  "[{'type':'perspective','perspective':{'yfov':0.75,'znear':0.1,'zfar':40}}]");
 }
 
-/* From the origin to the end in a second. */
-static void add_clip(struct gn_maker *maker, int node, const float end[3]) {
-    const float times[2] = {0, 1}, to[6] = {0, 0, 0, end[0], end[1], end[2]};
-    char animation[300];
-    const int t = gn_maker_accessor(maker, "SCALAR", 5126, 2, times, sizeof times,
-                                    "'min':[0],'max':[1]"),
-              v = gn_maker_accessor(maker, "VEC3", 5126, 2, to, sizeof to, NULL);
-    snprintf(animation, sizeof animation,
-             "[{'samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':{'node':%d,"
-             "'path':'translation'}}]}]",
-             t, v, node);
-    gn_maker_set(maker, "animations", animation);
-}
+static const float origin[3] = {0}, right[3] = {1, 0, 0};
 
 /* moves: by a clip that holds them where they are. */
 static const char *write_scene(int body, bool moves) {
@@ -65,7 +53,7 @@ static const char *write_scene(int body, bool moves) {
              bodies[body]);
     gn_maker_set(&maker, "nodes", nodes);
     gn_maker_set(&maker, "scenes", "[{'nodes':[3,4]}]");
-    if (moves) add_clip(&maker, 4, (const float[3]){0});
+    if (moves) gn_maker_move(&maker, 4, 1, origin, origin);
     add_camera(&maker);
     snprintf(path, sizeof path, "%s/gathered-%d-%d.glb", gn_shot_build(), body, moves);
     if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
@@ -275,7 +263,7 @@ static struct gn_scene *make_moving(void) {
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_cube(&maker);
-    add_clip(&maker, 3, (const float[3]){1, 0, 0});
+    gn_maker_move(&maker, 3, 1, origin, right);
     gn_maker_set(&maker, "nodes",
                  "[{'camera':0,'translation':[0,3.5,5],'rotation':[-0.2588,0,0,0.9659]}"
                  ",{'mesh':1,'translation':[-1,0.5,0],'scale':[0.5,0.5,0.5]}"
@@ -292,7 +280,7 @@ static struct gn_scene *make_many_moving(void) {
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_cube(&maker);
-    add_clip(&maker, 1, (const float[3]){1, 0, 0});
+    gn_maker_move(&maker, 1, 1, origin, right);
     for (int i = 0; i < 700; i++) {
         size += (size_t)snprintf(nodes + size, sizeof nodes - size,
                                  ",{'mesh':1,'translation':[%g,0.5,%g],'scale':[0.02,0.5,0.02]}",

@@ -80,16 +80,7 @@ static void add_cameras(struct gn_maker *m, float scale) {
 
 /* The camera that stands comes down to its place within 4 s. */
 static void add_flight(struct gn_maker *m, size_t camera, float from_m) {
-    const float times_s[2] = {0.0f, 4.0f}, places[6] = {0.0f, from_m, 0.0f, 0.0f, 1.7f, 0.0f};
-    const int input = gn_maker_accessor(m, "SCALAR", GL_FLOAT_CODE, 2, times_s, sizeof times_s,
-                                        "'min':[0],'max':[4]"),
-              output = gn_maker_accessor(m, "VEC3", GL_FLOAT_CODE, 2, places, sizeof places, NULL);
-    char json[256];
-    snprintf(json, sizeof json,
-             "[{'samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':"
-             "{'node':%zu,'path':'translation'}}]}]",
-             input, output, camera);
-    gn_maker_set(m, "animations", json);
+    gn_maker_move(m, (int)camera, 4, (const float[3]){0, from_m, 0}, (const float[3]){0, 1.7f, 0});
 }
 
 static struct gn_scene *make(float scale, float from_m) {

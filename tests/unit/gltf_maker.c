@@ -70,6 +70,21 @@ int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, s
     return gn_maker_add(maker, "accessors", json);
 }
 
+void gn_maker_move(struct gn_maker *m, int node, float seconds, const float from[3],
+                   const float to[3]) {
+    const float times_s[2] = {0, seconds},
+                places[6] = {from[0], from[1], from[2], to[0], to[1], to[2]};
+    char most[60], json[260];
+    snprintf(most, sizeof most, "'min':[0],'max':[%g]", (double)seconds);
+    const int input = gn_maker_accessor(m, "SCALAR", 5126, 2, times_s, sizeof times_s, most),
+              output = gn_maker_accessor(m, "VEC3", 5126, 2, places, sizeof places, NULL);
+    snprintf(json, sizeof json,
+             "[{'samplers':[{'input':%d,'output':%d}],'channels':[{'sampler':0,'target':{'node':%d,"
+             "'path':'translation'}}]}]",
+             input, output, node);
+    gn_maker_set(m, "animations", json);
+}
+
 void gn_maker_square(struct gn_maker *maker) {
     static const float positions[] = {-1, 0, -1, -1, 0, 1, 1, 0, 1, 1, 0, -1};
     static const uint16_t indices[] = {0, 1, 2, 0, 2, 3};

@@ -32,6 +32,9 @@ int gn_maker_view(struct gn_maker *maker, const void *data, size_t size);
 /* A view and an accessor on it; `more` is JSON members to add ("'normalized':true") or NULL. */
 int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, size_t count,
                       const void *data, size_t size, const char *more);
+/* The only clip: the node goes from one place to another in so many seconds. */
+void gn_maker_move(struct gn_maker *maker, int node, float seconds, const float from[3],
+                   const float to[3]);
 /* A 2 x 2 square in y = 0, facing up, as mesh 0 (accessors 0 and 1, no normals), node 0 with it,
  * and a scene. */
 void gn_maker_square(struct gn_maker *maker);
