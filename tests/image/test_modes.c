@@ -291,6 +291,23 @@ static void a_bad_scene_changes_nothing(void **state) {
     }
     assert_int_equal(show->screen.drawn.scene, 0);
     assert_non_null(strstr(gn_problem_last(&show->problems), "bad.glb"));
+    /* one that is dropped is no error of the settings */
+    gn_show_load_file(show, path);
+    while (!show->problems.of[GN_PROBLEM_FIRST][0]) {
+        help_show_step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < 2 * PATIENCE_NS);
+    }
+    assert_string_equal(show->problems.of[GN_PROBLEM_CONFIG], "");
+    /* what is asked for again is named, and not what went wrong meanwhile */
+    gn_problem_report(&show->problems, GN_PROBLEM_THROTTLED, "throttled");
+    assert_int_equal(gn_problem_last_kind(&show->problems), GN_PROBLEM_THROTTLED);
+    help_show_act(show, GN_ACTION_NEXT_SCENE);
+    assert_true(gn_kiosk_waits(&show->screen.kiosk));
+    while (gn_kiosk_waits(&show->screen.kiosk)) {
+        help_show_step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < 3 * PATIENCE_NS);
+    }
+    assert_int_equal(gn_problem_last_kind(&show->problems), GN_PROBLEM_SCENE);
     help_show_frames(show, 2);
     gn_show_close(show);
     help_remove(folder);
