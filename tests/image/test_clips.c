@@ -32,7 +32,7 @@ static void draw_frame(struct gn_show *show) {
 static void until_still(struct gn_show *show) {
     const int64_t begun_ns = gn_clock_process_cpu_ns();
     help_show_until_warm(show);
-    while (!show->screen.stage.display.screen.may_draw || gn_show_wants_frame(&show->screen)) {
+    while (help_show_changes(show)) {
         help_show_step(show);
         assert_true(gn_clock_process_cpu_ns() - begun_ns < PATIENCE_NS);
     }

@@ -196,7 +196,7 @@ static void pause_stands_and_blank_is_dark(void **state) {
     help_show_act(show, GN_ACTION_PAUSE);
     help_show_step(show);
     const int64_t stood_ns = show->screen.drawn.time_ns;
-    while (show->screen.kiosk.caption || gn_show_wants_frame(&show->screen)) help_show_step(show);
+    while (help_show_changes(show)) help_show_step(show);
     assert_int_equal(show->screen.drawn.time_ns, stood_ns);
     help_show_picture(show, before);
     help_show_act(show, GN_ACTION_BLANK);

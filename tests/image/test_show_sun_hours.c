@@ -84,7 +84,7 @@ static void wait_for(struct gn_show *show) {
     const struct gn_show_still *still = &show->screen.still;
     const int64_t until_ns = gn_clock_monotonic_ns() + PATIENCE_NS;
     while (still->sun.hours.count == 0 || still->sun.painted < still->sun.hours.count ||
-           gn_show_wants_frame(&show->screen)) {
+           help_show_changes(show)) {
         help_show_step(show);
         if (gn_clock_monotonic_ns() > until_ns)
             fail_msg("%u positions, share %.2f", still->sun.added, (double)still->share);

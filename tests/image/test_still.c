@@ -60,7 +60,8 @@ static void wait_for(struct gn_show *show, float share, uint8_t *picture, int *s
     static uint8_t next[4 * PIXELS];
     uint64_t frames = show->counts.frames;
     *step = 0;
-    while (still->share != share || gn_show_wants_frame(&show->screen)) {
+    while (still->share != share || !show->screen.stage.display.screen.may_draw ||
+           gn_show_wants_frame(&show->screen)) {
         help_show_step(show);
         if (gn_clock_monotonic_ns() > until_ns)
             fail_msg("%u points, share %.2f", still->points, (double)still->share);

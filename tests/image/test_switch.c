@@ -54,7 +54,7 @@ static void programs_of_other_modes_are_within_their_share(void **state) {
     assert_true(rounds[2] < rounds[1] + rounds[1] / 10);
     show->screen.changed = true; /* without the caption of the last change */
     gn_captions_set(show->screen.text.captions, GN_CAPTION_MODE, NULL, 0); /* it need not fall */
-    while (show->screen.kiosk.caption || gn_show_wants_frame(&show->screen)) help_show_step(show);
+    while (help_show_changes(show)) help_show_step(show);
     help_show_picture(show, after);
     assert_memory_equal(before, after, sizeof before);
     gn_memory_pretend_mb(0);

@@ -87,6 +87,12 @@ void help_show_until_warm(struct gn_show *show) {
     } while (show->counts.frames == 0 || gn_show_has_work(&show->screen));
 }
 
+bool help_show_changes(const struct gn_show *show) {
+    const struct gn_show_screen *s = &show->screen;
+    return !s->stage.display.screen.may_draw || s->kiosk.caption || gn_show_wants_frame(s) ||
+           gn_show_captions_due_ns(s) < INT64_MAX;
+}
+
 void help_show_picture(const struct gn_show *show, uint8_t *out) {
     struct gn_err err = {0};
     if (!gn_gl_read_rgba8(show->screen.stage.gl, out, &err)) fail_msg("%s", err.text);

@@ -22,6 +22,9 @@ void help_show_frames(struct gn_show *show, unsigned count);
 /* Steps until a frame is drawn and nothing is made ahead any more, for at most three minutes of
  * processor time. */
 void help_show_until_warm(struct gn_show *show);
+/* Whether a frame is wanted, or can be only once the display takes one, or a text is still to fall:
+ * what is read before that is not the last picture. */
+bool help_show_changes(const struct gn_show *show);
 /* The frame that was drawn last: 4 bytes a pixel. */
 void help_show_picture(const struct gn_show *show, uint8_t *out);
 
