@@ -34,7 +34,7 @@ struct gn_captions {
     struct gn_atlas atlas;
     struct gn_page page;   /* that was laid out last */
     struct gn_shape shape; /* of the line that was looked at last */
-    struct gn_caption_run run;
+    struct gn_caption_run run, sample;
     struct gn_caption_quad quads[QUADS_MAX];
     char missing[512];    /* packages of fonts, and libraqm */
     uint32_t bar_percent; /* filled, plus 1; 0: no bar */
@@ -376,6 +376,29 @@ static void lay_out_all(struct gn_captions *c) {
     if (c->captions[GN_CAPTION_MARK].text[0] && !page) lay_out_mark(c);
 }
 
+static void need_font(struct gn_captions *c) {
+    struct gn_err err = {0};
+    if (!gn_captions_open_font(c, &err))
+        gn_warn(c->opts.warnings, "font: %s; texts are shown in the built-in font", err.text);
+}
+
+const struct gn_caption_run *gn_captions_sample(struct gn_captions *c, uint32_t width_px,
+                                                uint32_t height_px) {
+    static const struct gn_caption_quad pixel = {.width = 1, .height = 1};
+    need_font(c);
+    if (!c->atlas.picture.generation) { /* the first text's size begins another */
+        gn_atlas_glyph(&c->atlas, c->font, GN_ATLAS_SOLID);
+        gn_atlas_seal(&c->atlas);
+    }
+    c->sample = (struct gn_caption_run){.width_px = width_px,
+                                        .height_px = height_px,
+                                        .quads = &pixel,
+                                        .quad_count = 1,
+                                        .alpha = {1.0f},
+                                        .atlas = &c->atlas.picture};
+    return &c->sample;
+}
+
 const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t width_px,
                                              uint32_t height_px, int64_t now_ns) {
     bool seen = false;
@@ -387,9 +410,7 @@ const struct gn_caption_run *gn_captions_run(struct gn_captions *c, uint32_t wid
     c->shown_ns = now_ns;
     c->changed = false;
     if (!seen) return NULL;
-    struct gn_err err = {0};
-    if (!gn_captions_open_font(c, &err))
-        gn_warn(c->opts.warnings, "font: %s; texts are shown in the built-in font", err.text);
+    need_font(c);
     if (c->stale || c->run.width_px != width_px || c->run.height_px != height_px) {
         const bool other_size = c->run.width_px != width_px || c->run.height_px != height_px;
         c->run.width_px = width_px;

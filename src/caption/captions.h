@@ -46,6 +46,11 @@ void gn_captions_set_split(struct gn_captions *captions, double at);
  * changed. */
 const struct gn_caption_run *gn_captions_run(struct gn_captions *captions, uint32_t width_px,
                                              uint32_t height_px, int64_t now_ns);
+/* A pixel on a picture of that size, from the atlas as it is, for a draw ahead of the first text:
+ * what a driver has not drawn before it compiles then. Never NULL, valid until the next call; opens
+ * the font. */
+const struct gn_caption_run *gn_captions_sample(struct gn_captions *captions, uint32_t width_px,
+                                                uint32_t height_px);
 /* What this machine lacks to draw the texts so far: as gn_shape_find_missing() writes it; "":
  * nothing.
  */

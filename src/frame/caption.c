@@ -78,7 +78,6 @@ void gn_frame_add_captions(struct gn_frame *frame, const struct gn_pose *pose,
     struct gn_program_key key = gn_key_of(GN_PROGRAM_CAPTION);
     if (frame->plan.encode_srgb) key.features = GN_FEATURE(ENCODE_SRGB);
     if (opts->debug.aov != GN_AOV_COLOR) return;
-    if (opts->cover.captions_later) gn_frame_program(frame, &key);
     if (run && (run->width_px != frame->picture.shown_width_px ||
                 run->height_px != frame->picture.shown_height_px))
         run = NULL;

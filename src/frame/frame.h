@@ -101,7 +101,6 @@ struct gn_frame_output_opts {     /* what the picture is drawn to: assigned whol
 };
 struct gn_frame_cover_opts {               /* what lies over the finished picture */
     const struct gn_caption_run *captions; /* of a picture of this size; none. Colour only */
-    bool captions_later;                   /* include their program even without captions */
     float dimmed;     /* share of its light that the picture loses, captions too; 0: none */
     float mean;       /* share of a mean of pictures that lies over the picture, below captions */
     uint32_t mean_of; /* the number of the view that gathered it */

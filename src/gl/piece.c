@@ -41,11 +41,12 @@ static int pace_of(const struct gn_pass *pass) {
     return pass->picture.blend == GN_BLEND_OFF ? 2 : 3;
 }
 
-/* Pixels of an instance, if it covers all of the target. */
+/* Pixels of an instance, if it covers all of the target; those without geometry, as the rectangles
+ * of a text, do so together. */
 static double pixels_of(const struct gn_gl *gl, const struct gn_pass *pass,
                         const struct gn_draw *d) {
     const double target_px = (double)pass->target.width_px * pass->target.height_px;
-    if (d->geometry == GN_NO_GEOMETRY) return target_px;
+    if (d->geometry == GN_NO_GEOMETRY) return target_px / d->instance_count;
     const struct gn_geometry *g = &gl->scene.scene->geometries[d->geometry];
     const double corners = gn_draw_corners(gl->scene.scene, gl->scene.detail, d).count;
     double layers = (double)fmaxf(fmaxf(g->layers[0], g->layers[1]), g->layers[2]);

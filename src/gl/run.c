@@ -266,6 +266,7 @@ bool gn_gl_touch(struct gn_gl *gl, const struct gn_plan *plan, uint32_t program,
     struct gn_gl_program *p = gn_gl_program_find(gl, &plan->programs[program]);
     grow_plan_programs(gl, plan->program_count);
     gl->plan_programs.at[program] = p;
+    if (!gn_gl_atlas_ensure(gl, plan->atlas, err)) return false;
     p->constants_hash = ~UINT64_C(0); /* forces an upload now and at the next frame */
     gn_gl_instances_upload(gl, plan->instances, plan->instance_count);
     gn_gl_pose_upload(gl, plan);

@@ -206,11 +206,26 @@ static void write_change(struct gn_show_screen *s, const struct gn_kiosk_view *v
     gn_captions_set(t->captions, GN_CAPTION_MODE, change_text(s, view, info), now_ns);
 }
 
+struct size {
+    uint32_t width_px, height_px;
+};
+
+/* Of the picture before it is turned. */
+static struct size upright(const struct gn_frame_output_opts *o) {
+    return o->turn_deg % 180 == 0 ? (struct size){o->width_px, o->height_px}
+                                  : (struct size){o->height_px, o->width_px};
+}
+
+const struct gn_caption_run *gn_show_sample_captions(const struct gn_show_screen *s) {
+    const struct size size = upright(&s->stage.shown.opts.output);
+    return gn_captions_sample(s->text.captions, size.width_px, size.height_px);
+}
+
 void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view *view,
                             int64_t now_ns) {
     struct gn_show_text *t = &s->text;
     struct gn_frame_opts *f = &s->stage.shown.opts;
-    const bool on_side = f->output.turn_deg / 90 % 2;
+    const struct size size = upright(&f->output);
     char title[120];
     struct gn_info info = {
         .scene = write_title(s->show->scenes.paths[view->scene], title),
@@ -226,10 +241,7 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
     write_labels(s, view, now_ns);
     write_change(s, view, &info, now_ns);
     write_page(s, view, &info, now_ns);
-    f->cover.captions_later = true;
-    f->cover.captions =
-        gn_captions_run(t->captions, on_side ? f->output.height_px : f->output.width_px,
-                        on_side ? f->output.width_px : f->output.height_px, now_ns);
+    f->cover.captions = gn_captions_run(t->captions, size.width_px, size.height_px, now_ns);
 }
 
 /* The information page is updated once a second. */

@@ -25,6 +25,8 @@ void gn_show_open_captions(struct gn_show_screen *screen);
 /* Sets the texts of the frame of that view. */
 void gn_show_write_captions(struct gn_show_screen *screen, const struct gn_kiosk_view *view,
                             int64_t now_ns);
+/* To be drawn before there are texts, so that the first of them does not wait for a compiler. */
+const struct gn_caption_run *gn_show_sample_captions(const struct gn_show_screen *screen);
 /* The last part of a path; NULL: the built-in scene. */
 const char *gn_show_path_name(const char *path);
 /* When the texts need another frame; 0: at once, INT64_MAX: never. */

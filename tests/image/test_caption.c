@@ -382,13 +382,15 @@ static void test_frames_make_nothing(void **state) {
     assert_int_equal(gn_alloc_count(), allocations);
 }
 
-static void test_a_program_can_be_made_before(void **state) {
+static void test_a_sample_makes_all_that_a_text_needs(void **state) {
     (void)state;
-    opts.cover.captions_later = true;
-    const uint32_t programs = draw(NULL, NULL)->program_count;
-    assert_int_equal(draw(run_at(0), NULL)->program_count, programs);
-    opts.cover.captions_later = false;
-    assert_int_equal(draw(NULL, NULL)->program_count, programs - 1);
+    const struct gn_caption_run *sample =
+        gn_captions_sample(captions, opts.output.width_px, opts.output.height_px);
+    const struct gn_plan *plan = draw(sample, NULL);
+    const struct gn_program_key key = plan->programs[plan->program_count - 1];
+    assert_int_equal(key.kind, GN_PROGRAM_CAPTION);
+    const struct gn_plan *text = draw(run_at(0), NULL);
+    assert_memory_equal(&text->programs[text->program_count - 1], &key, sizeof key);
 }
 
 #define TEST(f) cmocka_unit_test_setup_teardown(f, setup, teardown)
@@ -409,7 +411,7 @@ int main(void) {
         TEST(test_a_dimmed_picture_has_less_light),
         TEST(test_the_pass_says_where_it_draws),
         TEST(test_frames_make_nothing),
-        TEST(test_a_program_can_be_made_before),
+        TEST(test_a_sample_makes_all_that_a_text_needs),
     };
     int failed = cmocka_run_group_tests_name("egl", tests, open_egl, close_all);
     failed += cmocka_run_group_tests_name("osmesa", tests, open_osmesa, close_all);
