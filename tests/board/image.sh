@@ -125,14 +125,17 @@ differ first broken || complain 'the new model is not shown at the next start'
 # ---- power cut ---------------------------------------------------------------------------------------------
 fat mdel ::gnomon/broken.glb
 fat mcopy assets/sundial.glb ::gnomon/scene.glb
+stood=0
 for try in $(seq "${TIMES:-3}"); do
     switch_on
     at_s=$((20 + RANDOM % 160))
+    [ $at_s -lt 80 ] || { wait_for_picture "start $try" && stood=$((stood + 1)); } # the others are cut while they start
     while kill -0 "$machine" 2> /dev/null && [ "$(cpu_s)" -lt "$at_s" ]; do sleep 1; done
     switch_off
 done
 switch_on
 wait_for_picture "after-$try-cuts"
+echo "$try cuts of power, before $stood of them a picture stood"
 tell system_powerdown 60
 switch_off
 data_is_whole || complain "the data partition after the cuts: $(cat "$out/e2fsck")"
