@@ -240,7 +240,7 @@ static void print_check(const struct check *c, const struct gn_options *o) {
         printf("modes: none in the file; %s\n",
                gn_options_leave_modes(o) ? "what the scene offers" : "one per technique");
     for (int i = 0; i < o->mode_count; i++) {
-        const struct gn_section *mode = &o->modes[i];
+        const struct gn_named_section *mode = &o->modes[i];
         printf("mode \"%s\": ", mode->name);
         int count = 0;
         for (const struct gn_override *set = mode->first; set; set = set->next)
@@ -248,7 +248,7 @@ static void print_check(const struct check *c, const struct gn_options *o) {
         puts(count ? "" : "no settings of its own");
     }
     for (int i = 0; i < o->settings->light_count; i++) {
-        const struct gn_section *light = &o->settings->lights[i];
+        const struct gn_named_section *light = &o->settings->lights[i];
         char text[400];
         gn_stage_print_light(o->settings, light, text, sizeof text);
         printf("light \"%s\": %s\n", light->name, text[0] ? text : "no settings of its own");

@@ -154,7 +154,7 @@ static void add_lights(struct gn_fitting *f, const struct gn_pose *pose,
 static void leave_out_shadows(const struct gn_fitting *f, gn_fit_set taken,
                               const struct gn_scene *scene, struct gn_frame_shadow_opts *opts) {
     for (int i = 0; i < f->search.count; i++) {
-        const struct gn_section section = {.name = f->steps[i].light};
+        const struct gn_named_section section = {.name = f->steps[i].light};
         for (uint32_t k = 0; section.name && taken >> i & 1 && k < scene->light_count; k++) {
             struct gn_light_opts *entry =
                 gn_light_section_is_of(&section, scene, k) ? gn_stage_light_entry(opts, k) : NULL;

@@ -179,7 +179,7 @@ static void set_lights(const struct gn_frame *frame, const struct gn_light_group
         key->lights[i].encoding = (uint8_t)gn_encoding_of_programs(light->encoding);
         key->lights[i].moments = (uint8_t)gn_moments_of_programs(light->moments);
         key->lights[i].cascades = light->cascades > 1;
-        key->lights[i].filter_set = gn_techniques[light->technique].filter_radius_px > 0.0f &&
+        key->lights[i].radius_set = gn_techniques[light->technique].filter_radius_px > 0.0f &&
                                     light->opts.filter_radius_px > 0.0f;
         key->lights[i].taps =
             (uint8_t)gn_taps_count(gn_techniques[light->technique].taps, (int)light->opts.taps);
@@ -209,7 +209,7 @@ struct gn_program_key gn_key_lit(const struct gn_frame *frame, uint32_t index,
     enum gn_receiver receiver = receiver_of(frame, item, opts->debug.aov);
     set_lights(frame, &frame->groups[0], opts, receiver, &key);
     if (gn_key_is_floor(frame, index)) { /* its visibility */
-        struct gn_light_key *light = &key.lights[0];
+        struct gn_program_light *light = &key.lights[0];
         const uint8_t type = light->type;
         memset(light, 0, sizeof *light);
         light->type = type;

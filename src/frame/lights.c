@@ -49,11 +49,11 @@ static bool has_formats(const struct gn_frame *frame, enum gn_technique techniqu
 static enum gn_technique technique_of(struct gn_frame *frame, const struct gn_frame_light *chosen,
                                       const struct gn_frame_opts *opts,
                                       struct gn_warnings *warnings) {
-    const bool given = GN_LIGHT_HAS(gn_frame_own_opts(opts, chosen->light), technique);
+    const bool has_own = GN_LIGHT_HAS(gn_frame_own_opts(opts, chosen->light), technique);
     const enum gn_technique technique = chosen->opts.technique;
     const struct gn_light *light = &frame->scene->lights[chosen->light];
     struct gn_light_note *note = &frame->notes.lights.at[chosen->light];
-    if (note->unknown && !given && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
+    if (note->unknown && !has_own && gn_frame_notice(&note->said, GN_NOTICE_TECHNIQUE, warnings))
         gn_warn(warnings, "light '%s': gnomon_shadow '%s' is not a known technique; using %s",
                 light->name, light->technique, gn_techniques[technique].name);
     if (!has_formats(frame, technique)) {
@@ -86,7 +86,7 @@ static void choose_encoding(struct gn_frame *frame, const struct gn_frame_opts *
         gn_encoding_choose(light->technique, encoding, gn_caps_encodings(&frame->caps), &fell_back);
 
     /* A format can be requested for the moments of a filtered map, or for an unfiltered map, not
-     * for both. */
+     * for both; of a technique that reads both (cone) for either. */
     const bool filters_map = gn_technique_filters_map(light->technique);
     if (filters_map)
         light->moments = gn_moments_choose(technique->stores, moments,

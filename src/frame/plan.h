@@ -45,16 +45,16 @@ enum gn_aov {
 
 /* ---- programs: a variant is a key ---- */
 
-struct gn_light_key {   /* one light of a LIT or visibility program */
-    uint8_t type;       /* gn_light_type */
-    uint8_t technique;  /* gn_technique; NONE: no map */
-    uint8_t encoding;   /* gn_encoding, 0 when technique is NONE */
-    uint8_t slide;      /* gn_slide */
-    uint8_t slide_ends; /* at a far plane: 0 or 1 */
-    uint8_t moments;    /* gn_moments: what is read in the map's place, or beside it */
-    uint8_t cascades;   /* its map has some: 0 or 1 */
-    uint8_t ranged;     /* it ends at its range: 0 or 1 */
-    uint8_t filter_set; /* its filter's radius is read from SHADOW_SLOPE, not compiled in: 0 or 1 */
+struct gn_program_light { /* one light of a LIT or visibility program */
+    uint8_t type;         /* gn_light_type */
+    uint8_t technique;    /* gn_technique; NONE: no map */
+    uint8_t encoding;     /* gn_encoding, 0 when technique is NONE */
+    uint8_t slide;        /* gn_slide */
+    uint8_t slide_ends;   /* at a far plane: 0 or 1 */
+    uint8_t moments;      /* gn_moments: what is read in the map's place, or beside it */
+    uint8_t cascades;     /* its map has some: 0 or 1 */
+    uint8_t ranged;       /* it ends at its range: 0 or 1 */
+    uint8_t radius_set; /* its filter's radius is read from SHADOW_SLOPE, not compiled in: 0 or 1 */
     uint8_t taps;       /* samples of a technique that takes them, else 0 */
 };
 enum gn_receiver { /* whose shadows an item receives */
@@ -66,16 +66,16 @@ struct gn_program_key { /* compared with memcmp: zero it first. Lights with maps
     uint64_t features;  /* GN_FEATURE(..) */
     uint8_t kind, aov, light_count, shadow_count;
     uint8_t encoding;  /* DISTANCE: what it writes; PANEL: what it shows; FILTER: of the map, where
-                          the step reads that, and 0 */
+                          the step reads that, else 0 */
     uint8_t taps_turn; /* LIT, visibility: patterns of samples are rotated per pixel */
     uint8_t receiver;  /* gn_receiver, of LIT, with more than one group of lights */
     uint8_t step;      /* FILTER: gn_filter_step */
     uint8_t technique; /* FILTER: whose moments; 0 where the step makes none of codes */
     uint8_t moments;   /* FILTER: gn_moments of what it reads and writes */
     uint8_t unused[6];
-    struct gn_light_key lights[GN_LIGHTS_MAX];
+    struct gn_program_light lights[GN_LIGHTS_MAX];
 };
-_Static_assert(sizeof(struct gn_program_key) == 24 + sizeof(struct gn_light_key[GN_LIGHTS_MAX]),
+_Static_assert(sizeof(struct gn_program_key) == 24 + sizeof(struct gn_program_light[GN_LIGHTS_MAX]),
                "no padding");
 
 /* ---- what a draw reads ---- */

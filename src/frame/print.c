@@ -38,7 +38,7 @@ static void print_key(const struct gn_program_key *key, FILE *to) {
     for (int i = 0; i < GN_FEATURE_COUNT; i++)
         if (key->features >> i & 1) fprintf(to, " +%s", gn_features[i].name);
     for (int i = 0; i < key->light_count; i++) {
-        const struct gn_light_key *light = &key->lights[i];
+        const struct gn_program_light *light = &key->lights[i];
         fprintf(to, " %s", gn_light_types[light->type].name);
         if (i < key->shadow_count)
             fprintf(to, ":%s/%s%s", gn_techniques[light->technique].name,

@@ -7,7 +7,7 @@
 
 /* X(NAME, printed name, vertex stage, fragment stage, kind of the passes that draw with it, what it
  * reads). BARE: vertices without a geometry; ENCODING: the fragment stage includes the file of
- * gn_program_key.encoding. */
+ * gn_program_key.encoding (of FILTER the step says that). */
 /* clang-format off */
 #define GN_PROGRAM_TABLE(X) \
     X(DEPTH, "depth", "depth.vert", "depth.frag", MAP, 0)                               /* casters, no colour */ \

@@ -1,8 +1,8 @@
 /* From a program key to the source of a shader. Key bits become `const bool`, used with plain `if`;
- * a WITH_ macro stands beside each for declarations. Every technique defines the same function, but
- * for one argument more where it reads two maps (add_filtered()), and so does every encoding: the
- * names that a file lists in its `//@ names` line get a suffix by macro while the file is read, so
- * that a program can have several. No GL. */
+ * a WITH_ macro stands beside each that is set, for declarations. Every technique defines the same
+ * function, but for one argument more where it reads two maps (add_filtered()), and so does every
+ * encoding: the names that a file lists in its `//@ names` line get a suffix by macro while the
+ * file is read, so that a program can have several. No GL. */
 #include <stdio.h>
 #include <string.h>
 
@@ -16,7 +16,7 @@ static const char *const aov_names[GN_AOV_COUNT] = {
 static const char *const taps_names[] = {
     [GN_TAPS_DISK] = "DISK", [GN_TAPS_POISSON] = "POISSON", [GN_TAPS_RINGS] = "RINGS"};
 
-static bool compares_in_sampler(const struct gn_light_key *light) {
+static bool compares_in_sampler(const struct gn_program_light *light) {
     return !gn_technique_replaces_map((enum gn_technique)light->technique) &&
            light->encoding == GN_ENCODING_DEPTH && !gn_techniques[light->technique].searches;
 }
@@ -105,14 +105,14 @@ static bool add_layers(struct gn_gl_source *source, const struct gn_program_key 
     return true;
 }
 
-/* A lookup is the code for one technique, encoding, moments, filter and taps. Its number, the
- * suffix, is that of the first light that has the same of them as light i. */
+/* A lookup is the code for one technique, encoding, moments, radius (set or compiled in) and taps.
+ * Its number, the suffix, is that of the first light that has the same of them as light i. */
 static int lookup_of(const struct gn_program_key *key, int i) {
-    const struct gn_light_key *light = &key->lights[i];
+    const struct gn_program_light *light = &key->lights[i];
     for (int first = 0;; first++) {
-        const struct gn_light_key *other = &key->lights[first];
+        const struct gn_program_light *other = &key->lights[first];
         if (other->technique == light->technique && other->encoding == light->encoding &&
-            other->moments == light->moments && other->filter_set == light->filter_set &&
+            other->moments == light->moments && other->radius_set == light->radius_set &&
             other->taps == light->taps)
             return first;
     }
@@ -122,7 +122,7 @@ static int lookup_of(const struct gn_program_key *key, int i) {
 static void add_points(const struct gn_program_key *key, struct gn_gl_text *out) {
     bool any = false;
     for (int i = 0; i < key->shadow_count; i++) {
-        const struct gn_light_key *light = &key->lights[i];
+        const struct gn_program_light *light = &key->lights[i];
         const enum gn_taps kind = gn_techniques[light->technique].taps;
         bool known = false;
         for (int k = 0; k < i; k++)
@@ -153,8 +153,8 @@ static void add_middle(int technique, struct gn_gl_text *out) {
                    (double)gn_techniques[technique].moments_middle);
 }
 
-static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *light, int suffix,
-                       struct gn_gl_text *out, struct gn_err *err) {
+static bool add_lookup(struct gn_gl_source *source, const struct gn_program_light *light,
+                       int suffix, struct gn_gl_text *out, struct gn_err *err) {
     enum { LOOKUP_FILES = 5 };
     const struct gn_technique_row *technique = &gn_techniques[light->technique];
     const bool compares = compares_in_sampler(light);
@@ -170,7 +170,7 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
     if (light->taps)
         gn_gl_text_add(out, "#define TAPS %d\n#define RINGS %d\n#define SHADOW_TAPS TAPS_%s_%d\n",
                        light->taps, light->taps / 4, taps_names[technique->taps], light->taps);
-    if (light->filter_set)
+    if (light->radius_set)
         gn_gl_text_add(out, "#define FILTER_RADIUS s.filter_radius\n");
     else if (technique->filter_radius_px > 0.0f)
         gn_gl_text_add(out, "#define FILTER_RADIUS %.1f\n", (double)technique->filter_radius_px);
@@ -195,7 +195,7 @@ static bool add_lookup(struct gn_gl_source *source, const struct gn_light_key *l
     return true;
 }
 
-static const char *sampler_of_map(const struct gn_light_key *light) {
+static const char *sampler_of_map(const struct gn_program_light *light) {
     const bool replaced = gn_technique_replaces_map((enum gn_technique)light->technique);
     if (compares_in_sampler(light)) return "sampler2DShadow";
     if (replaced) return gn_moments[light->moments].sampler;
@@ -206,7 +206,7 @@ static const char *sampler_of_map(const struct gn_light_key *light) {
 
 /* For a technique that reads the map of shader slot i and what it is filtered into: a function with
  * the arguments of all techniques, shadow_both_i(). */
-static void add_filtered(const struct gn_light_key *light, int i, int suffix,
+static void add_filtered(const struct gn_program_light *light, int i, int suffix,
                          struct gn_gl_text *out) {
     gn_gl_text_add(out, "uniform %s u_filtered_%d;\n", gn_moments[light->moments].sampler, i);
     gn_gl_text_add(out,
@@ -240,7 +240,7 @@ static void add_light_flags(const struct gn_program_key *key, struct gn_gl_text 
     uint32_t linear = 0, shared = 0, cascades = 0, spans = 0, spread = 0, smooth = 0, projected = 0;
     const bool deforms = key->features & GN_FEATURES_POSED;
     for (int i = 0; i < GN_SHADOWS_MAX; i++) {
-        const struct gn_light_key *light = &key->lights[i];
+        const struct gn_program_light *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
         if ((!type->has_position && !light->cascades) || gn_techniques[light->technique].on_plane)
             linear |= 1u << i;
@@ -302,7 +302,7 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
         gn_gl_text_add(out, "uniform %s u_map_%d;\n", sampler, i);
     }
     for (int i = 0; i < key->shadow_count; i++) {
-        const struct gn_light_key *light = &key->lights[i];
+        const struct gn_program_light *light = &key->lights[i];
         if (lookup_of(key, i) == i && !add_lookup(source, light, i, out, err)) return false;
         if (gn_techniques[light->technique].reads_both)
             add_filtered(light, i, lookup_of(key, i), out);
@@ -310,7 +310,7 @@ static bool add_lights(struct gn_gl_source *source, const struct gn_program_key 
     if (!add_slides(source, key, out, err)) return false;
     gn_gl_text_add(out, "#define EACH_SHADOWED_LIGHT(F)");
     for (int i = 0; i < key->shadow_count; i++) {
-        const struct gn_light_key *light = &key->lights[i];
+        const struct gn_program_light *light = &key->lights[i];
         const struct gn_light_type_row *type = &gn_light_types[light->type];
         bool radial = type->has_position && light->encoding != GN_ENCODING_DEPTH;
         const bool both = gn_techniques[light->technique].reads_both;
@@ -395,7 +395,7 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
         separator = "|";
     }
     for (int i = 0; i < key->light_count; i++) {
-        const struct gn_light_key *light = &key->lights[i];
+        const struct gn_program_light *light = &key->lights[i];
         append_word(out, size, ", ", gn_light_types[light->type].glsl + sizeof "LIGHT_" - 1);
         if (light->slide)
             append_word(out, size, " ", light->slide == GN_SLIDE_LIT ? "film" : "slide");
@@ -407,6 +407,6 @@ void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size) {
                     light->moments ? gn_moments[light->moments].name
                                    : gn_encodings[light->encoding].name);
         if (light->cascades) append_word(out, size, " ", "cascades");
-        if (light->filter_set) append_word(out, size, " ", "radius");
+        if (light->radius_set) append_word(out, size, " ", "radius");
     }
 }

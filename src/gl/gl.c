@@ -30,7 +30,7 @@ fail:
 void gn_gl_destroy(struct gn_gl *gl) {
     if (!gl) return;
     if (gl->fn.Viewport) { /* the last of the table: it was loaded */
-        gn_gl_stage(gl, NULL);
+        gn_gl_staged_begin(gl, NULL);
         gn_gl_scene_finish(gl);
         gn_gl_kept_finish(gl);
         gn_gl_programs_finish(gl);

@@ -26,10 +26,10 @@ struct gn_gl_opts {
 };
 
 struct gn_gl;
-/* Loads the function table, learns and proves what the GPU can do (by a draw and a read-back),
- * makes what every plan needs. A capability that the driver claims and that fails is missing from
- * then on, with a warning. NULL when the context is not OpenGL ES 3.0 or later: the error names the
- * GPU and its version. */
+/* Loads the function table, learns and proves what the GPU can do (by a draw and a read-back,
+ * unless that comes later), makes what every plan needs. A capability that the driver claims and
+ * that fails is missing from then on, with a warning. NULL when the context is not OpenGL ES 3.0 or
+ * later: the error names the GPU and its version. */
 struct gn_gl *gn_gl_create(const struct gn_gl_opts *opts, struct gn_warnings *warnings,
                            struct gn_err *err);
 void gn_gl_destroy(struct gn_gl *gl);
@@ -42,12 +42,12 @@ bool gn_gl_draws_right(struct gn_gl *gl);
 
 /* Uploads a scene, replacing the one before. The scene must outlive its use here. */
 bool gn_gl_load(struct gn_gl *gl, const struct gn_scene *scene, struct gn_err *err);
-/* Uploads a second scene in pieces while the first is shown. stage() begins; NULL: drops the staged
+/* Uploads a second scene in pieces while the first is shown. begin(): NULL drops the staged
  * scene. step() uploads about so many bytes, and sets *whole when the upload is complete. show()
  * replaces the first scene, which is freed; only when whole. */
-void gn_gl_stage(struct gn_gl *gl, const struct gn_scene *scene);
-bool gn_gl_stage_step(struct gn_gl *gl, size_t bytes, bool *whole, struct gn_err *err);
-void gn_gl_stage_show(struct gn_gl *gl);
+void gn_gl_staged_begin(struct gn_gl *gl, const struct gn_scene *scene);
+bool gn_gl_staged_step(struct gn_gl *gl, size_t bytes, bool *whole, struct gn_err *err);
+void gn_gl_staged_show(struct gn_gl *gl);
 
 /* Tests the capabilities that the plan needs and that were not tested yet. False when one fails:
  * gn_gl_caps() no longer has it, and the plan must be built again with what is left. */

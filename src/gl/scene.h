@@ -105,7 +105,7 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene);
 /* Uploads about so many bytes; *done: the scene is complete. On failure all of it is freed. */
 bool gn_gl_scene_step(struct gn_gl *gl, size_t bytes, bool *done, struct gn_err *err);
 /* Swaps the staged scene and the current one. */
-void gn_gl_stage_swap(struct gn_gl *gl);
+void gn_gl_staged_swap(struct gn_gl *gl);
 void gn_gl_scene_finish(struct gn_gl *gl);
 /* The vertex array for a set of attributes, made if missing; false when there are too many. */
 bool gn_gl_vertices_ensure(struct gn_gl *gl, uint32_t attributes, struct gn_err *err);

@@ -35,7 +35,7 @@ int gn_gl_source_names(const struct gn_gl_source *source, const char *name,
 enum gn_gl_shader { GN_GL_VERTEX, GN_GL_FRAGMENT };
 bool gn_gl_compose(const char *folder, const struct gn_program_key *key, enum gn_gl_shader shader,
                    struct gn_gl_text *out, struct gn_err *err);
-/* A key as text: "lit BASE_TEXTURE|HEMISPHERE, spot pcf depth, point". */
+/* A key as text: "lit BASE_TEXTURE|HEMISPHERE, SPOT pcf depth, POINT". */
 void gn_gl_key_text(const struct gn_program_key *key, char *out, size_t size);
 
 #endif

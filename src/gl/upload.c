@@ -152,7 +152,8 @@ uint32_t gn_gl_first_index(const struct gn_gl *gl, const struct gn_draw *draw) {
            s->detail->geometries[draw->geometry].at[draw->level - 1].first_index;
 }
 
-static void forget_programs(struct gn_gl *gl) {
+/* No program has uniforms of this scene's materials yet. */
+static void forget_sets(struct gn_gl *gl) {
     for (uint32_t i = 0; i < gl->programs.room; i++) gl->programs.table[i].set = UINT32_MAX;
 }
 
@@ -219,7 +220,7 @@ void gn_gl_scene_begin(struct gn_gl *gl, const struct gn_scene *scene) {
     }
 
     share_sets(&gl->scene);
-    forget_programs(gl);
+    forget_sets(gl);
 }
 
 /* Runs one phase, for as many bytes as wanted; for SIZE_MAX all phases. */
@@ -260,41 +261,41 @@ void gn_gl_scene_finish(struct gn_gl *gl) {
 
 /* ---- the staged scene ---- */
 
-void gn_gl_stage_swap(struct gn_gl *gl) {
+void gn_gl_staged_swap(struct gn_gl *gl) {
     const struct gn_gl_scene shown = gl->scene;
     gl->scene = *gl->staged;
     *gl->staged = shown;
-    forget_programs(gl);
+    forget_sets(gl);
 }
 
-void gn_gl_stage(struct gn_gl *gl, const struct gn_scene *scene) {
+void gn_gl_staged_begin(struct gn_gl *gl, const struct gn_scene *scene) {
     if (gl->staged) {
-        gn_gl_stage_swap(gl);
+        gn_gl_staged_swap(gl);
         gn_gl_scene_finish(gl);
-        gn_gl_stage_swap(gl);
+        gn_gl_staged_swap(gl);
         free(gl->staged);
         gl->staged = NULL;
     }
     if (!scene) return;
     gl->staged = gn_xalloc(1, sizeof *gl->staged);
-    gn_gl_stage_swap(gl);
+    gn_gl_staged_swap(gl);
     gn_gl_scene_begin(gl, scene);
-    gn_gl_stage_swap(gl);
+    gn_gl_staged_swap(gl);
 }
 
-bool gn_gl_stage_step(struct gn_gl *gl, size_t bytes, bool *whole, struct gn_err *err) {
+bool gn_gl_staged_step(struct gn_gl *gl, size_t bytes, bool *whole, struct gn_err *err) {
     *whole = gl->staged && gl->staged->upload.phase == GN_GL_UPLOAD_DONE;
     if (*whole) return true;
     if (!gl->staged || !gl->staged->scene) return gn_fail(err, "no scene is staged");
-    gn_gl_stage_swap(gl);
+    gn_gl_staged_swap(gl);
     const bool ok = gn_gl_scene_step(gl, bytes, whole, err);
-    gn_gl_stage_swap(gl);
+    gn_gl_staged_swap(gl);
     return ok;
 }
 
-void gn_gl_stage_show(struct gn_gl *gl) {
-    gn_gl_stage_swap(gl);
-    gn_gl_stage(gl, NULL);
+void gn_gl_staged_show(struct gn_gl *gl) {
+    gn_gl_staged_swap(gl);
+    gn_gl_staged_begin(gl, NULL);
     gn_gl_targets_forget(gl);
 }
 

@@ -65,9 +65,9 @@ enum gn_gl_warmth gn_gl_warm(struct gn_gl *gl, const struct gn_plan *plan, bool 
         gn_fail(err, "the plan's scene is not loaded");
         return GN_GL_WARM_FAILED;
     }
-    gn_gl_stage_swap(gl);
+    gn_gl_staged_swap(gl);
     const enum gn_gl_warmth warmth = warm_plan(gl, plan, again, err);
-    gn_gl_stage_swap(gl);
+    gn_gl_staged_swap(gl);
     return warmth;
 }
 

@@ -36,7 +36,7 @@ void gn_show_forget_work(struct gn_show_screen *s) {
 void gn_show_drop_staged(struct gn_show_screen *s) {
     s->staged.stale = s->pauses && s->staged.loaded;
     if (s->pauses) return;
-    if (s->stage.gl) gn_gl_stage(s->stage.gl, NULL);
+    if (s->stage.gl) gn_gl_staged_begin(s->stage.gl, NULL);
     forget_upload(s);
     gn_loaded_drop(s->staged.loaded);
     s->staged.loaded = NULL;
@@ -53,8 +53,7 @@ static void fail_place(struct gn_show_screen *s, enum gn_kiosk_event_kind kind, 
     const bool of_mode = kind == GN_KIOSK_MODE_FAILED;
     *(of_mode ? &s->show->problems.mode : &s->show->problems.scene) = number;
     const enum gn_problem problem = of_mode ? GN_PROBLEM_MODE : GN_PROBLEM_SCENE;
-    gn_problem_report(&s->show->problems, problem, why);
-    gn_problem_repeat(&s->show->problems, problem); /* its caption names what was asked for now */
+    gn_problem_report_again(&s->show->problems, problem, why);
     if (!of_mode) gn_parts_loaded(&s->show->parts, GN_PART_LOAD_SCENE);
     gn_show_send(s, (struct gn_kiosk_event){.kind = kind, .mode = number, .scene = number});
     gn_latency_drop(&s->show->buttons.latency);
@@ -154,13 +153,13 @@ static bool work_on_modes(struct gn_show_screen *s, int64_t until_ns) {
 
 /* ---- the staged scene ---- */
 
-/* The look in staged.looks that the staged scene is shown in first. */
-static int staged_mode(const struct gn_show_screen *s) {
+/* The place in staged.looks of what is shown first: a reload has one look, at 0, of any mode. */
+static int first_look(const struct gn_show_screen *s) {
     return gn_show_reload_is_staged(s) ? 0 : s->kiosk.wanted.mode;
 }
 
 static bool staged_is_ready(const struct gn_show_screen *s) {
-    return !s->stage.gl || (s->staged.whole && s->staged.looks.ready >> staged_mode(s) & 1);
+    return !s->stage.gl || (s->staged.whole && s->staged.looks.ready >> first_look(s) & 1);
 }
 
 void gn_show_stage_reload(struct gn_show_screen *s, const struct gn_stage_look *look) {
@@ -194,7 +193,7 @@ void gn_show_take_staged(struct gn_show_screen *s) {
     gn_still_drop(s);
     gn_view_close(&s->split.view, s->stage.gl);
     gn_view_stop(&stage->shown);
-    if (stage->gl) gn_gl_stage_show(stage->gl);
+    if (stage->gl) gn_gl_staged_show(stage->gl);
     stage->shown.builder = staged->view.builder;
     staged->view.builder = NULL;
     stage->scene = loaded->scene;
@@ -214,7 +213,7 @@ void gn_show_take_staged(struct gn_show_screen *s) {
 static bool work_on_staged(struct gn_show_screen *s) {
     struct gn_show_staged *staged = &s->staged;
     struct gn_loaded *loaded = staged->loaded;
-    const int mode = staged_mode(s);
+    const int mode = first_look(s);
     struct gn_err err = {0};
     if (!loaded) return false;
     if (staged->whole)
@@ -225,14 +224,14 @@ static bool work_on_staged(struct gn_show_screen *s) {
     staged->sent += SLICE_BYTES;
     /* upload it; after a lost context the upload begins again */
     if (!staged->view.pose) {
-        gn_gl_stage(s->stage.gl, loaded->scene);
+        gn_gl_staged_begin(s->stage.gl, loaded->scene);
         staged->sent = 0;
         staged->all = gn_scene_gpu_bytes(loaded->scene);
         staged->view.pose = &loaded->pose;
-    } else if (!gn_gl_stage_step(s->stage.gl, SLICE_BYTES, &staged->whole, &err)) {
+    } else if (!gn_gl_staged_step(s->stage.gl, SLICE_BYTES, &staged->whole, &err)) {
         const int number = loaded->number;
         if (number == GN_SHOW_RELOAD) {
-            s->show->reload.alone = true;
+            s->show->reload.alone = true; /* the old scene is freed first (keeps_gl()) */
             return true;
         }
         gn_show_drop_staged(s);

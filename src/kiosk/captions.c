@@ -41,9 +41,9 @@ static const char *write_title(const char *path, char out[120]) {
 static bool find_lasting(const struct gn_show *s, const struct gn_problem_words **words,
                          const char **shown) {
     const struct gn_options *o = s->config.options;
-    const bool is_own = o->config_error == s->config.error;
-    const char *text = is_own ? s->config.shown : o->config_shown;
-    *words = &gn_problem_words[is_own ? s->config.kind : GN_PROBLEM_CONFIG];
+    const bool is_of_run = o->config_error == s->config.error;
+    const char *text = is_of_run ? s->config.shown : o->config_shown;
+    *words = &gn_problem_words[is_of_run ? s->config.kind : GN_PROBLEM_CONFIG];
     *shown = text ? text : "";
     return o->config_error;
 }

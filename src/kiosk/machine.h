@@ -39,7 +39,7 @@ enum gn_kiosk_caption {
     GN_KIOSK_CAPTION_PAUSE,
     GN_KIOSK_CAPTION_SUN,
     GN_KIOSK_CAPTION_NOTE,    /* a text of the viewer */
-    GN_KIOSK_CAPTION_PROBLEM, /* the mode or scene cannot be shown */
+    GN_KIOSK_CAPTION_PROBLEM, /* what the last problem is called */
 };
 struct gn_kiosk_place {
     int mode, scene; /* in the list of next-scene; a scene that the mode names takes precedence */

@@ -14,7 +14,7 @@ struct gn_show_screen;
  * goes through soft, sharp and no shadows, unless an option or a button names one; a window through
  * all. */
 struct gn_show_modes {
-    int count, first;
+    int count, first; /* first: that is entered, of options->settings or resumes */
     const char *names[GN_KIOSK_MODES_MAX];
     char titles[GN_KIOSK_MODES_MAX][64]; /* the same on the screen */
     uint32_t passed_by;                  /* as in gn_kiosk_rules */

@@ -52,7 +52,7 @@ struct gn_part_host {
 
 enum gn_part_load {
     GN_PART_LOAD_SCENE,   /* another scene is shown, or could not be */
-    GN_PART_LOAD_OPTIONS, /* one of new options */
+    GN_PART_LOAD_OPTIONS, /* new options are in use, or their first load begins */
     GN_PART_LOAD_FAILED,  /* a reload has failed */
 };
 

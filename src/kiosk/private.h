@@ -29,7 +29,8 @@ struct gn_show_config {
     bool has_past;               /* that was replaced by a file: */
     char past[PATH_MAX];         /* the one before; "": the options' scenes */
     struct gn_show_place *place; /* NULL: the options say where */
-    char error[512];             /* of start or the last reload; options->config_error */
+    char error[512];             /* of a reload (ASKED) or gn_show_report_error(), where
+                                    options->config_error points here; else it is of the start */
     char shown[192];             /* what the screen says of it, */
     enum gn_problem kind;        /* beside the words of that kind */
 };
@@ -71,7 +72,7 @@ struct gn_show {
     struct gn_show_first first;
     struct gn_screenshot *screenshot; /* that a request asks for; NULL: none did so far */
     bool ends, failed;
-    bool reloads; /* a reload is wanted (wish); `reload` is the one that has begun */
+    bool wants_reload; /* a reload is wanted (wish); `reload` is the one that has begun */
 };
 
 /* ---- show.c: the top; these for tests ------------------------------------------------------- */
@@ -139,7 +140,8 @@ bool gn_show_check_action(const struct gn_show_screen *screen, const struct gn_a
 /* A caption of the viewer, for 2 s. */
 __attribute__((format(printf, 2, 3))) void gn_show_note(struct gn_show_screen *screen,
                                                         const char *format, ...);
-/* One that lasts: the caption stays until a reload, and the status has it as config.error. */
+/* One that lasts: a card for a while, then a mark until a reload; the status has it as config.error
+ * if nothing else stands there. */
 void gn_show_report_error(struct gn_show *show, enum gn_problem kind, const char *text);
 /* Its end, in the caption and in the status, too. */
 void gn_show_cure_error(struct gn_show *show, enum gn_problem kind);

@@ -12,7 +12,10 @@ void gn_problem_report(struct gn_problems *p, enum gn_problem kind, const char *
     fprintf(stderr, "gnomon: warning: %s\n", text);
 }
 
-void gn_problem_repeat(struct gn_problems *p, enum gn_problem kind) { p->begun[kind] = ++p->count; }
+void gn_problem_report_again(struct gn_problems *p, enum gn_problem kind, const char *text) {
+    gn_problem_report(p, kind, text);
+    p->begun[kind] = ++p->count;
+}
 
 void gn_problem_cure(struct gn_problems *p, enum gn_problem kind) { p->of[kind][0] = '\0'; }
 

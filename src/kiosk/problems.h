@@ -8,10 +8,12 @@ enum gn_problem {
     GN_PROBLEM_CONTROL, /* no control socket; until it opens */
     GN_PROBLEM_TRIAL,   /* what was new is not shown; until something new is */
     GN_PROBLEM_CONFIG,  /* of kiosk.ini; until a reload succeeds, like the next three */
-    GN_PROBLEM_FIRST,   /* another scene is shown than the first */
+    GN_PROBLEM_FIRST,   /* the scene of the options is not shown: at the start another one is, after
+                            a failed reload the one before */
     GN_PROBLEM_FONT,
     GN_PROBLEM_INPUT,      /* no buttons */
-    GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is */
+    GN_PROBLEM_ACTION,     /* an action's mode or clip is not there; until another one's is, or a
+                               reload */
     GN_PROBLEM_MODE,       /* until that mode is shown, or a reload */
     GN_PROBLEM_SCENE,      /* likewise */
     GN_PROBLEM_WATCH,      /* changes of files are not noticed */
@@ -35,8 +37,8 @@ struct gn_problems {                /* zeroed: none */
 /* Prints a text that differs from the last of its kind as a warning to stderr. */
 void gn_problem_report(struct gn_problems *problems, enum gn_problem kind, const char *text);
 void gn_problem_cure(struct gn_problems *problems, enum gn_problem kind);
-/* It happened once more: it is the last one again. */
-void gn_problem_repeat(struct gn_problems *problems, enum gn_problem kind);
+/* The same of what somebody did now: it is the last one, also if it happened before. */
+void gn_problem_report_again(struct gn_problems *problems, enum gn_problem kind, const char *text);
 /* The last that is not cured, or NULL. */
 const char *gn_problem_last(const struct gn_problems *problems);
 /* The kind of that; GN_PROBLEM_COUNT: none. */

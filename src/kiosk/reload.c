@@ -1,8 +1,8 @@
-/* Reload (SIGHUP, ctl): all options are read again, a thread loads the scene, and work ahead puts
- * it on the GPU, while frames go on. If one fails the kiosk keeps the last good configuration and
- * its picture; but once the old scene is gone (take_reload()), when its client has its answer, a
- * failure ends the kiosk, or is shown as a text if it is one of GL (screen.c). The first load is
- * one, too, once it takes over a second: until then a black stage is the last good one. */
+/* Reload (SIGHUP, ctl, a file that changed): all options are read again, a thread loads the scene,
+ * and work ahead puts it on the GPU, while frames go on. Until take_reload() a failure keeps the
+ * last good configuration and its picture. A failure in it is the client's answer and ends the
+ * kiosk; one of GL after it, when the client was told ok, is shown as a text (screen.c). The first
+ * load is one, too, once it takes over a second: until then a black stage is the last good one. */
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -90,7 +90,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     if (cause == GN_RELOAD_FILE) return;
     gn_parts_loaded(&s->parts, GN_PART_LOAD_FAILED);
     if (cause != GN_RELOAD_ASKED) {
-        gn_problem_report(&s->problems, kind_of(why), why->text);
+        gn_problem_report_again(&s->problems, kind_of(why), why->text);
         gn_show_send(&s->screen, (struct gn_kiosk_event){.kind = GN_KIOSK_NOTE,
                                                          .caption = GN_KIOSK_CAPTION_PROBLEM});
         s->screen.changed = true;
@@ -103,7 +103,7 @@ static void keep_old(struct gn_show *s, enum gn_reload_cause cause, const struct
     s->screen.changed = true;
     char text[sizeof why->text + 32];
     snprintf(text, sizeof text, "%s (not reloaded)", why->text);
-    gn_problem_report(&s->problems, s->config.kind, text);
+    gn_problem_report_again(&s->problems, s->config.kind, text);
 }
 
 /* ---- the steps ------------------------------------------------------------------------------ */
@@ -132,8 +132,8 @@ static int same_scene(const struct gn_show *s, const struct gn_options *options)
 
 /* The mode's own, or that one of the list. */
 static const char *scene_path(const struct gn_settings *o, int scene) {
-    const bool is_own = gn_settings_from(o, scene.path) == GN_SOURCE_MODE;
-    return scene > 0 && !is_own ? o->scene.list.paths[scene] : o->scene.path;
+    const bool of_mode = gn_settings_from(o, scene.path) == GN_SOURCE_MODE;
+    return scene > 0 && !of_mode ? o->scene.list.paths[scene] : o->scene.path;
 }
 
 /* file: as in gn_show_config. */
@@ -164,17 +164,17 @@ static void begin_reload(struct gn_show *s, enum gn_reload_cause cause, const ch
 
 /* The first scene is loaded before any other, since there is nothing to go back to. */
 void gn_show_reload(struct gn_show *s) {
-    if (!s->reloads || s->reload.first) return;
+    if (!s->wants_reload || s->reload.first) return;
     struct gn_show_wish *wish = &s->wish;
     const char *file = wish->file[0] ? wish->file : NULL;
-    s->reloads = false;
+    s->wants_reload = false;
     begin_reload(s, wish->cause, wish->cause == GN_RELOAD_ASKED ? s->config.file : file);
     wish->cause = GN_RELOAD_ASKED;
 }
 
 /* New content also replaces the scene of ctl scene. A reload that was asked for comes first. */
 bool gn_show_renew(struct gn_show *s, bool turned) {
-    if (s->reload.first || s->reloads) return false;
+    if (s->reload.first || s->wants_reload) return false;
     begin_reload(s, GN_RELOAD_SEEN, turned ? NULL : s->config.file);
     return true;
 }
@@ -188,7 +188,7 @@ void gn_show_scene_files(const struct gn_show *s, const char *out_paths[3]) {
 }
 
 void gn_show_load_file(struct gn_show *s, const char *path) {
-    s->reloads = true;
+    s->wants_reload = true;
     s->wish.cause = GN_RELOAD_DROP;
     snprintf(s->wish.file, sizeof s->wish.file, "%s", path);
 }
@@ -272,7 +272,7 @@ bool gn_show_step_reload(struct gn_show *s, struct gn_err *err) {
         }
     }
     if (gn_show_reload_is_staged(&s->screen)) return finish_reload(s, err);
-    if (!r->options || gn_loader_is_busy(s->scenes.loader)) return true;
+    if (gn_loader_is_busy(s->scenes.loader)) return true;
     const char *path = scene_path(r->options->settings, r->scene);
     if (r->cause != GN_RELOAD_FILE && r->cause != GN_RELOAD_DROP && !(r->first && s->first.lost[0]))
         snprintf(s->config.asked, sizeof s->config.asked, "%s", path ? path : "");

@@ -138,7 +138,8 @@ bool gn_show_has_work(const struct gn_show_screen *screen);
 void gn_show_forget_work(struct gn_show_screen *screen);
 /* Loads the wanted scene, and shows the wanted mode and scene once they are ready. */
 void gn_show_advance(struct gn_show_screen *screen);
-/* gn_show_advance() can show the wanted mode and scene now. */
+/* The next step shows another mode or scene: a complete reload (gn_show_step_reload()), or what is
+ * wanted (gn_show_advance()). */
 bool gn_show_can_advance(const struct gn_show_screen *screen);
 /* Stages reload.loaded, or changes the look of what is staged. If its programs fail later,
  * reload.loaded has the reason. */

@@ -15,7 +15,7 @@
 
 static void take_signal(void *user, int number) {
     struct gn_show *s = user;
-    s->reloads |= number == SIGHUP;
+    s->wants_reload |= number == SIGHUP;
     s->ends |= number != SIGHUP;
 }
 

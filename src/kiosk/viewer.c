@@ -175,7 +175,7 @@ static void run_command(struct gn_show_screen *s, enum gn_viewer_command command
     case GN_VIEWER_SCREENSHOT: write_screenshot(s); break;
     case GN_VIEWER_RELOAD:
         gn_show_note(s, "Loading again ..");
-        s->show->reloads = true;
+        s->show->wants_reload = true;
         break;
     default: break;
     }

@@ -35,16 +35,16 @@ _Static_assert(sizeof(enum gn_bias) == sizeof(int), "a choice is an int");
 
 /* ---- the whole file ------------------------------------------------------------------------ */
 
-static const struct gn_override *find_setting(const struct gn_section *section, int row) {
+static const struct gn_override *find_setting(const struct gn_named_section *section, int row) {
     return gn_section_setting(section, &gn_button_rows[row]);
 }
 
-static const char *chord_of(const struct gn_section *section) {
+static const char *chord_of(const struct gn_named_section *section) {
     const struct gn_override *chord = find_setting(section, CHORD);
     return chord ? *(const char *const *)chord->value : NULL;
 }
 
-static bool check_chord(const struct gn_sections *all, const struct gn_section *section,
+static bool check_chord(const struct gn_sections *all, const struct gn_named_section *section,
                         struct gn_err *err) {
     const char *at = chord_of(section), *label = at ? find_setting(section, CHORD)->label : NULL;
     char name[64];
@@ -63,7 +63,7 @@ static bool check_chord(const struct gn_sections *all, const struct gn_section *
 }
 
 /* A chord has neither line nor keys, and one gesture; active_high and bias need a line. */
-static bool check_place(const struct gn_section *section, struct gn_err *err) {
+static bool check_place(const struct gn_named_section *section, struct gn_err *err) {
     const bool has_line = find_setting(section, LINE), is_chord = find_setting(section, CHORD);
     for (const struct gn_override *o = section->first; o; o = o->next) {
         const ptrdiff_t row = o->row - gn_button_rows;
@@ -97,7 +97,7 @@ static bool has_mode(const struct gn_options *options, const char *name) {
     return found;
 }
 
-static bool check_modes(const struct gn_options *options, const struct gn_section *section,
+static bool check_modes(const struct gn_options *options, const struct gn_named_section *section,
                         struct gn_err *err) {
     for (const struct gn_override *o = section->first; o; o = o->next) {
         if (o->row->kind != GN_KIND_ACTION) continue;
@@ -112,7 +112,7 @@ static bool check_modes(const struct gn_options *options, const struct gn_sectio
     return true;
 }
 
-static bool check_actions(const struct gn_sections *all, const struct gn_section *section,
+static bool check_actions(const struct gn_sections *all, const struct gn_named_section *section,
                           struct gn_err *err) {
     bool does_something = is_in_chord(all, section->name);
     for (const struct gn_override *o = section->first; o; o = o->next)
@@ -131,7 +131,7 @@ static bool keep_valid(struct gn_options *options, struct gn_sections *kept, boo
     bool valid[GN_SECTIONS_MAX];
     const int count = kept->count;
     for (int i = 0; i < count; i++) {
-        const struct gn_section *section = &kept->items[i];
+        const struct gn_named_section *section = &kept->items[i];
         struct gn_err why = {0};
         valid[i] = check_place(section, &why) && check_actions(kept, section, &why) &&
                    check_chord(kept, section, &why);
@@ -156,7 +156,7 @@ bool gn_buttons_take(struct gn_options *options, const struct gn_sections *secti
     struct gn_buttons *buttons = gn_arena_alloc(&options->arena, 1, sizeof *buttons);
     if (!buttons) return gn_fail(err, "%s: no memory left", sections->items[0].label);
     for (; buttons->count < kept.count; buttons->count++) {
-        const struct gn_section *section = &kept.items[buttons->count];
+        const struct gn_named_section *section = &kept.items[buttons->count];
         struct gn_button_config *button = &buttons->items[buttons->count];
         button->opts.name = section->name;
         gn_section_fill(section, button);

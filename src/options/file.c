@@ -33,7 +33,8 @@ struct load {
     const char *path;
     const struct gn_config_over *over;    /* NULL: it is the machine's own */
     const struct gn_section_row *section; /* that is read: its kind; */
-    struct gn_section *one; /* and of many the one of that name, as [mode "Soft"]; else NULL */
+    struct gn_named_section
+        *one; /* and of many the one of that name, as [mode "Soft"]; else NULL */
     struct gn_sections many[GN_SECTION_COUNT];
     int lines[GN_OPTION_COUNT]; /* where each was set in sections that are not of many */
 };
@@ -54,9 +55,9 @@ static bool open_one(struct load *load, const struct gn_ini_line *line, struct g
     if (all->count == GN_SECTIONS_MAX)
         return gn_fail_usage(err, "%s: more than %d %ss", line->where, GN_SECTIONS_MAX, kind);
     if (!all->items) all->items = gn_arena_alloc(arena, GN_SECTIONS_MAX, sizeof *all->items);
-    const struct gn_section one = {.name = gn_arena_strdup(arena, line->name),
-                                   .label = gn_arena_strdup(arena, line->where),
-                                   .line = line->number};
+    const struct gn_named_section one = {.name = gn_arena_strdup(arena, line->name),
+                                         .label = gn_arena_strdup(arena, line->where),
+                                         .line = line->number};
     if (!all->items || !one.name || !one.label)
         return gn_fail(err, "%s: no memory left", line->where);
     load->one = &all->items[all->count++];

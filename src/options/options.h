@@ -14,7 +14,7 @@ struct gn_options {
         *all; /* [0] without any mode; then one for each mode, see gn_options_resolve() */
     int all_count;
 
-    const struct gn_section *modes; /* of the INI file, in its order */
+    const struct gn_named_section *modes; /* of the INI file, in its order */
     int mode_count;
     const char *home; /* the mode that a kiosk begins in and returns to, whichever is shown; NULL:
                          the one without settings of its own */
@@ -26,8 +26,8 @@ struct gn_options {
     const char *content; /* the folder that was laid over it (content.h), without links; or NULL */
     const char *base_path; /* over this INI file, if config_path is that folder's own; or NULL */
     /* The first line of the file that `show` runs without, or why it runs with the defaults, or
-     * NULL. In a kiosk that runs it is also why the last reload failed, or another lasting problem,
-     * while the configuration before stays in use (gn_show_report_error()). */
+     * NULL. In a kiosk that runs it is also why it could not be used in a reload, or another
+     * lasting problem (gn_show_report_error()). */
     const char *config_error;
     const char *config_shown; /* what the screen says of that; "" or NULL: what it says of any */
 

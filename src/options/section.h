@@ -9,7 +9,7 @@
 enum { GN_SECTIONS_MAX = 32 }; /* of one kind */
 
 struct gn_sections { /* those of many, of one kind, in the order of the file */
-    struct gn_section *items;
+    struct gn_named_section *items;
     int count;
 };
 struct gn_section_row {

@@ -5,14 +5,14 @@
 
 #include "options/value.h"
 
-const struct gn_override *gn_section_setting(const struct gn_section *section,
+const struct gn_override *gn_section_setting(const struct gn_named_section *section,
                                              const struct gn_option_row *row) {
     const struct gn_override *override = section->first;
     while (override && override->row != row) override = override->next;
     return override;
 }
 
-void gn_section_fill(const struct gn_section *section, void *out) {
+void gn_section_fill(const struct gn_named_section *section, void *out) {
     for (const struct gn_override *o = section->first; o; o = o->next)
         memcpy((char *)out + o->row->offset, o->value, gn_value_size(o->row->kind));
 }

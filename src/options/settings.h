@@ -62,7 +62,7 @@ struct gn_override { /* one setting of a section of many, as the file has it */
     int line;
     struct gn_override *next;
 };
-struct gn_section { /* one of many: [mode "NAME"], [light "NAME"], [button "NAME"] */
+struct gn_named_section { /* one of many: [mode "NAME"], [light "NAME"], [button "NAME"] */
     const char *name;
     const char *label; /* "kiosk.ini:31" */
     int line;
@@ -70,14 +70,14 @@ struct gn_section { /* one of many: [mode "NAME"], [light "NAME"], [button "NAME
 };
 
 /* The setting of a row, or NULL. */
-const struct gn_override *gn_section_setting(const struct gn_section *section,
+const struct gn_override *gn_section_setting(const struct gn_named_section *section,
                                              const struct gn_option_row *row);
 /* Copies what it sets into the struct in which its rows have their offsets. */
-void gn_section_fill(const struct gn_section *section, void *out);
+void gn_section_fill(const struct gn_named_section *section, void *out);
 
 struct gn_scene_settings {
     union {
-        const char *path;          /* NULL: the default scene inside the program */
+        const char *path;          /* list.paths[0]; NULL: the default scene inside the program */
         struct gn_scene_list list; /* that one, and those of next-scene */
     };
     const char *camera, *animation; /* NAME or number; NULL: the first; animation may be "none" */
@@ -102,8 +102,9 @@ enum gn_planar { GN_PLANAR_MASK, GN_PLANAR_STENCIL, GN_PLANAR_SOFT };
 struct gn_render_settings {
     struct gn_size size;
     struct gn_technique_list shadow; /* one; for bench any number. Set (gn_settings_given()) it
-                                        overrides that of lights */
-    int map_px;                      /* set it overrides that of lights */
+                                        overrides what lights of the scene name; against [light
+                                        "NAME"]: gn_settings_light_holds() */
+    int map_px;                      /* likewise */
     int map_format;                  /* GN_MAP_FORMAT() */
     int map_clears_near;             /* 0, 1 */
     int planar;                      /* enum gn_planar */
@@ -117,7 +118,7 @@ struct gn_render_settings {
     int taps;
     bool taps_fixed;
     double filter_budget;    /* million texels; 0: no limit */
-    double shadow_strength;  /* set it overrides that of lights */
+    double shadow_strength;  /* as shadow */
     double shadow_specular;  /* NAN: as the scene says */
     const char *environment; /* "auto", "studio", "none" or a file; NULL: auto */
     double environment_turn_deg, environment_strength;
@@ -240,7 +241,7 @@ struct gn_settings {
     struct gn_kiosk_settings kiosk;
     struct gn_schedule_settings schedule;
     struct gn_run_settings run;
-    const struct gn_section *lights; /* [light "NAME"] of the file, the same in every mode */
+    const struct gn_named_section *lights; /* [light "NAME"] of the file, the same in every mode */
     int light_count;
     bool several_scenes;                /* some mode or next-scene shows another one */
     uint8_t source[GN_OPTION_COUNT];    /* enum gn_source of each row */

@@ -1,4 +1,5 @@
-/* Completes a scene: bounds, the plane, a key light and a camera if it has none. */
+/* Completes a scene: bounds, the plane, a floor, spreads of poses; a key light and a camera if it
+ * has none. */
 #include "scene/private.h"
 
 #include <cglm/cglm.h>

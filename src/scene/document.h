@@ -27,7 +27,7 @@ struct gn_document *gn_document_open(const char *path, const void *data, size_t 
                                      struct gn_warnings *warnings, struct gn_err *err);
 void gn_document_close(struct gn_document *document);
 
-/* All its numbers are reals. */
+/* Its numbers are integers or reals (gn_json_number()). */
 const json_t *gn_document_json(const struct gn_document *document);
 size_t gn_document_accessor_count(const struct gn_document *document);
 size_t gn_document_view_count(const struct gn_document *document);

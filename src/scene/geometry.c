@@ -88,8 +88,8 @@ static bool put_other_attributes(struct gn_gltf *g, const int32_t *attribute,
 /* ---- corners ---- */
 
 /* In work memory. */
-static uint32_t *read_corners(struct gn_gltf *g, const struct gn_at *at,
-                              const struct gn_shape *shape, size_t *count) {
+static uint32_t *read_raw_indices(struct gn_gltf *g, const struct gn_at *at,
+                                  const struct gn_shape *shape, size_t *count) {
     size_t vertex_count = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_POSITION])->count;
     const struct gn_accessor *indices = gn_gltf_accessor(g, shape->indices);
     *count = indices ? indices->count : vertex_count;
@@ -218,7 +218,7 @@ static bool make_own(struct gn_gltf *g, const struct gn_at *at, const struct gn_
     const struct gn_accessor *n = gn_gltf_accessor(g, shape->attribute[GN_ATTRIBUTE_NORMAL]);
     struct gather vertices = {.accessor = a, .count = a->count};
     size_t count = 0;
-    uint32_t *raw = read_corners(g, at, shape, &count), *used = NULL;
+    uint32_t *raw = read_raw_indices(g, at, shape, &count), *used = NULL;
     if (!raw) return false;
     if (count < a->count && !number_used_vertices(g, raw, count, &used, &vertices.count))
         return false;
@@ -333,7 +333,7 @@ static bool fill_shared_geometry(struct gn_gltf *g, const struct gn_at *at,
             gn_geometry_repair_tangents(g->scene, gather.first, gather.count);
     }
     size_t count = 0;
-    const uint32_t *raw = read_corners(g, at, shape, &count);
+    const uint32_t *raw = read_raw_indices(g, at, shape, &count);
     if (!raw) return false;
     uint32_t *corners = buffers->indices + geometry->first_index;
     count = unroll_triangles(g, at, shape, raw, buffers->positions + 3 * (size_t)vertices->first,

@@ -36,8 +36,9 @@ enum gn_component { /* glTF's numbers */
                     GN_F32 = 5126,
 };
 
-/* A checked accessor: data + stride * (count - 1) + one element lie inside owned memory.
- * Stride may be 0 (an accessor without a bufferView is one element of zeros). Elements may be
+/* A checked accessor: data + stride * (count - 1) + one element lie inside memory that
+ * outlives the load. Stride 0: all elements are the first one (an accessor without a bufferView is
+ * one element of zeros); not "tight", as in a view. Elements may be
  * unaligned: read them with the functions below. */
 struct gn_accessor {
     const uint8_t *data;
@@ -85,7 +86,8 @@ struct gn_mesh {
     uint32_t first_primitive, primitive_count;
 };
 
-struct gn_vertices { /* a set of attribute accessors; geometries with normals share it */
+struct gn_vertices { /* a set of attribute accessors; geometries share it that have normals, and no
+                        tangents to make */
     int32_t attribute[GN_ATTRIBUTE_COUNT];
     uint32_t first, count;
     bool filled, lacks_normals; /* some normal had no length */
@@ -119,7 +121,7 @@ struct gn_placed { /* what glTF and its extras attach to a node of the scene */
 struct gn_gltf_memory {
     struct gn_arena *scene;
     struct gn_arena load; /* until the load ends */
-    struct gn_arena step; /* reset for each geometry, picture and animation */
+    struct gn_arena step; /* "work memory": reset when a geometry or a later step begins */
     size_t other_bytes;   /* an estimate of what lies outside the arenas: files, JSON, and what the
                              GPU will have of pictures, which on a board is the same memory */
     size_t most_bytes;    /* of all these at any time */
@@ -252,7 +254,7 @@ void gn_gltf_progress(const struct gn_gltf *g, uint64_t done, uint64_t all);
 /* ---- the steps of load.c, in order ---- */
 
 bool gn_gltf_open(struct gn_gltf *g, const uint8_t *data, size_t size); /* gltf/file.c */
-/* And makes each list of the file an array of objects. */
+/* The version and required extensions; makes each list of the file an array of objects. */
 bool gn_gltf_check_support(struct gn_gltf *g);
 bool gn_gltf_supports(const char *extension); /* a reader knows it */
 bool gn_gltf_uses(const struct gn_gltf *g, const char *extension);
@@ -295,7 +297,7 @@ void gn_missing_of_material(struct gn_gltf *g, const struct gn_at *material);
 bool gn_missing_list(struct gn_gltf *g);
 
 /* gltf/compressed.c: where the view is compressed by meshoptimizer, and this build has the decoder,
- * sets view->data, which else stays NULL. False: the load failed. */
+ * sets view->data, which else stays NULL. False: failed, which gn_gltf_buffers() may spare. */
 bool gn_gltf_decompress(struct gn_gltf *g, const struct gn_at *view_at,
                         struct gn_buffer_view *view);
 
@@ -348,7 +350,7 @@ void gn_geometry_add_spread(struct gn_scene *scene, uint32_t vertex, const doubl
 bool gn_scene_add_posed_spreads(struct gn_gltf *g);
 /* closed.c. Sets watertight and closed; neither where memory_mb leaves too little memory. */
 void gn_geometry_test_closed(const struct gn_gltf *g, struct gn_geometry *geometry);
-/* Sets box, flat and plane; *area: of all triangles, square units of mesh space. */
+/* Sets box, layers, flat and plane; *area: of all triangles, square units of mesh space. */
 void gn_geometry_measure(const struct gn_scene *scene, struct gn_geometry *geometry, double *area);
 
 /* skin.c */

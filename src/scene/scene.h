@@ -132,7 +132,8 @@ struct gn_joint_box { /* of the vertices that a joint moves, mesh space */
 
 /* One unique set of accessors: a range of the scene's vertices and indices. Triangles only (strips
  * and fans are unrolled). Primitives that name the same accessors share one geometry whatever their
- * materials; geometries with the same vertex accessors share the range of vertices. One without
+ * materials; geometries with the same vertex accessors share the range of vertices, but for those
+ * whose normals or tangents are made. One without
  * indices (nothing of it could be shown) has no items. */
 struct gn_geometry {
     uint32_t first_vertex, vertex_count;
@@ -464,7 +465,7 @@ uint64_t gn_scene_index_bytes(const struct gn_scene *scene);
  * are at or over it as much as the picture is; -1: it reads the picture as it is. */
 int gn_scene_find_cutoff(const struct gn_scene *scene, const struct gn_material *material,
                          enum gn_texture_slot slot);
-/* And of its targets, and of the texels of poses. */
+/* What the GPU will have of morph targets, and of the texels of poses. */
 uint64_t gn_scene_deformation_bytes(const struct gn_scene *scene);
 /* Size of a vertex in GPU memory. */
 uint32_t gn_scene_vertex_bytes(const struct gn_scene *scene);

@@ -186,9 +186,9 @@ struct gn_shadow_view {
     uint32_t light;
     enum gn_technique technique;
     enum gn_encoding encoding;
-    enum gn_moments moments;        /* what shaders read in the map's place; NONE: the map */
-    uint32_t plane;                 /* as in gn_shadow_opts */
-    bool all_receive;               /* as in gn_shadow_opts */
+    enum gn_moments moments; /* what shaders read in the map's place, or beside it; NONE: the map */
+    uint32_t plane;          /* as in gn_shadow_opts */
+    bool all_receive;        /* as in gn_shadow_opts */
     bool whole, but_floor, fixed;   /* likewise */
     struct gn_shadow_square square; /* likewise */
     bool faces_given;

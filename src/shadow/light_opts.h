@@ -6,8 +6,8 @@
 
 #include "shadow/technique.h"
 
-/* The format of a map: an encoding for techniques that read the map itself, or moments for those
- * that filter it. */
+/* The format of a map: an encoding for techniques that read the map itself, moments for those that
+ * filter it, either for those that read both (cone). */
 #define GN_MAP_FORMAT(encoding, moments) ((int)(encoding) | (int)(moments) << 8)
 #define GN_MAP_FORMAT_ENCODING(format)   ((enum gn_encoding)((format)&0xff))
 #define GN_MAP_FORMAT_MOMENTS(format)    ((enum gn_moments)((format) >> 8))

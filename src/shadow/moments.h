@@ -3,7 +3,8 @@
  *
  * Moments of neighbouring texels may be averaged, which distances may not: so the map is blurred
  * once, when it has changed, instead of in every pixel that reads it. A code of such a map is the
- * distance itself, 0 at the near end and 1 at the far one.
+ * distance itself, 0 at the near end and 1 at the far one; where the map is read beside its moments
+ * (cone) it is the depth.
  *
  * A map knows casters alone, and is the far end where there are none, whatever the eye sees there.
  * Two moments cannot distinguish such a gap from a third distance: so vsm, evsm and vssm average

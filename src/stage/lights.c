@@ -8,7 +8,7 @@
 #include "core/text.h"
 #include "options/value.h"
 
-bool gn_light_section_is_of(const struct gn_section *section, const struct gn_scene *scene,
+bool gn_light_section_is_of(const struct gn_named_section *section, const struct gn_scene *scene,
                             uint32_t light) {
     const struct gn_light *l = &scene->lights[light];
     return strcmp(section->name, scene->nodes[l->node].name) == 0 ||
@@ -86,7 +86,7 @@ static void set_all(struct gn_frame_shadow_opts *opts, const struct gn_settings 
     }
 }
 
-static void warn_of_name(const struct gn_section *section, const struct gn_scene *scene,
+static void warn_of_name(const struct gn_named_section *section, const struct gn_scene *scene,
                          struct gn_warnings *warnings) {
     char names[120] = "";
     for (uint32_t i = 0; i < scene->light_count; i++)
@@ -134,7 +134,7 @@ void gn_stage_set_lights(struct gn_frame_shadow_opts *opts, const struct gn_sett
                          const struct gn_scene *scene, struct gn_warnings *warnings) {
     set_all(opts, settings, scene);
     for (int s = 0; s < settings->light_count; s++) {
-        const struct gn_section *section = &settings->lights[s];
+        const struct gn_named_section *section = &settings->lights[s];
         bool found = false;
         for (uint32_t i = 0; i < scene->light_count; i++) {
             if (!gn_light_section_is_of(section, scene, i)) continue;
@@ -175,8 +175,8 @@ bool gn_stage_keeps_key(const struct gn_frame_shadow_opts *opts, const struct gn
     return keeps && !is_moved(&settings->light);
 }
 
-void gn_stage_print_light(const struct gn_settings *settings, const struct gn_section *section,
-                          char *out, size_t size) {
+void gn_stage_print_light(const struct gn_settings *settings,
+                          const struct gn_named_section *section, char *out, size_t size) {
     out[0] = '\0';
     for (const struct gn_override *o = section->first; o; o = o->next) {
         char key[64], text[80];

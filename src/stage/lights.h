@@ -8,7 +8,7 @@
 #include "options/settings.h"
 
 /* Whether the section is of that light: by the name of its node, or its own. */
-bool gn_light_section_is_of(const struct gn_section *section, const struct gn_scene *scene,
+bool gn_light_section_is_of(const struct gn_named_section *section, const struct gn_scene *scene,
                             uint32_t light);
 /* The entry of that light in opts->lights, made where there is none; NULL: no room. */
 struct gn_light_opts *gn_stage_light_entry(struct gn_frame_shadow_opts *opts, uint32_t light);
@@ -29,7 +29,7 @@ void gn_stage_set_key(struct gn_frame_shadow_opts *opts, const struct gn_scene *
 bool gn_stage_keeps_key(const struct gn_frame_shadow_opts *opts, const struct gn_settings *settings,
                         const struct gn_scene *scene);
 /* What holds of a section, as "shadow = pcss, map = 512"; "" if that is nothing. */
-void gn_stage_print_light(const struct gn_settings *settings, const struct gn_section *section,
-                          char *out, size_t size);
+void gn_stage_print_light(const struct gn_settings *settings,
+                          const struct gn_named_section *section, char *out, size_t size);
 
 #endif

@@ -334,7 +334,9 @@ uint32_t gn_stage_msaa(const struct gn_stage *stage, uint32_t width_px, uint32_t
 void gn_stage_occlude(struct gn_stage *stage, struct gn_view *view) {
     const int command = stage->settings->run.command;
     if (!view->opts.occlusion.on) return;
-    if (!stage->occluder) stage->occluder = gn_occluder_create(stage->scene); /* built-in scene */
+    if (!stage->occluder)
+        stage->occluder = gn_occluder_create(stage->scene); /* the kiosk's loader
+                                                         made none */
     gn_occluder_give(stage->occluder, view->pose, &view->opts,
                      command != GN_COMMAND_SHOW && command != GN_COMMAND_AUTO);
 }

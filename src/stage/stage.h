@@ -39,7 +39,8 @@ struct gn_stage {
 
 /* The limits of --limit, for the loader, with the defaults of the others. */
 struct gn_scene_limits gn_stage_limits(const struct gn_settings *settings);
-/* A scene by its path; NULL: the built-in one. Uses no shared state: it may run in a thread. */
+/* A scene by its path, or lesson:NAME; NULL: the built-in one. Uses no shared state: it may run in
+ * a thread. */
 struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *limits,
                                struct gn_warnings *warnings, struct gn_err *err);
 /* Before a plan of the view is built: its occlusion. Where frames are shown it is made beside them,
@@ -47,7 +48,8 @@ struct gn_scene *gn_stage_read(const char *path, const struct gn_scene_limits *l
 void gn_stage_occlude(struct gn_stage *stage, struct gn_view *view);
 /* The same of its levels of detail. Pictures of technique truth have whole meshes. */
 void gn_stage_refine(struct gn_stage *stage, struct gn_view *view);
-/* Checks what the options say about a scene (camera, animation, light, technique). */
+/* Fills the look; checks what the settings say about the scene (camera, animation, variant, light).
+ */
 bool gn_stage_look_build(struct gn_stage_look *look, const struct gn_settings *settings,
                          const struct gn_scene *scene, struct gn_warnings *warnings,
                          struct gn_err *err);

@@ -153,7 +153,7 @@ static struct gn_frame_opts opts_of(enum gn_technique technique, enum gn_encodin
 static bool has_program(const struct bench *b, enum gn_light_type type, enum gn_technique technique,
                         enum gn_encoding encoding) {
     for (uint32_t i = 0; i < b->seen.count; i++) {
-        const struct gn_light_key *light = &b->seen.at[i].lights[0];
+        const struct gn_program_light *light = &b->seen.at[i].lights[0];
         const bool shadowed = b->seen.at[i].shadow_count > 0 || technique == GN_TECHNIQUE_NONE;
         if (b->seen.at[i].kind == GN_PROGRAM_LIT && b->seen.at[i].light_count == 1 && shadowed &&
             light->type == type && light->technique == technique &&

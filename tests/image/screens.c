@@ -244,7 +244,7 @@ static void take_loading(void) {
     help_write_huge(folder, VERTICES);
     snprintf(path, sizeof path, "%s/huge.gltf", folder);
     gn_show_load_file(show, path);
-    while (show->reloads || (show->reload.options && show->screen.text.bar < 0)) step();
+    while (show->wants_reload || (show->reload.options && show->screen.text.bar < 0)) step();
     if (show->screen.text.bar >= 0) take_frame(SCREEN_LOADING);
 }
 

@@ -43,7 +43,7 @@ static struct gn_program_key key_of(enum gn_program_kind kind) {
 }
 
 static void add_light(struct gn_program_key *key, int type, int technique, int encoding) {
-    struct gn_light_key *light = &key->lights[key->light_count++];
+    struct gn_program_light *light = &key->lights[key->light_count++];
     light->type = (uint8_t)type;
     light->technique = (uint8_t)technique;
     light->encoding = (uint8_t)(technique ? encoding : 0);
@@ -52,7 +52,7 @@ static void add_light(struct gn_program_key *key, int type, int technique, int e
     if (light->taps) key->taps_turn = 1;
 }
 
-static void filter_map(struct gn_light_key *light, int moments) {
+static void filter_map(struct gn_program_light *light, int moments) {
     light->encoding =
         gn_techniques[light->technique].reads_both ? GN_ENCODING_DEPTH : GN_ENCODING_R32UI;
     light->moments = (uint8_t)moments;

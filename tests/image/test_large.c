@@ -178,7 +178,7 @@ static struct costs load_scene(const char *name, const char *path) {
     qsort(calm, CALM_FRAMES, sizeof *calm, by_time);
     costs.calm_ns = calm[CALM_FRAMES / 2].cpu_ns - calm[CALM_FRAMES / 2].driver_ns;
     write_config(path);
-    show->reloads = true;
+    show->wants_reload = true;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     int count = 0;
     do {

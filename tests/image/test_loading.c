@@ -115,7 +115,7 @@ static void frames_go_on_during_a_reload_and_a_later_one_replaces_it(void **stat
     struct gn_show *show = open_show(good);
     help_show_frames(show, 2);
     write_config(in_folder("slow.obj"));
-    show->reloads = true;
+    show->wants_reload = true;
     wait_for_importer(show);
     help_show_frames(show, 20);
     assert_non_null(show->reload.options);
@@ -124,7 +124,7 @@ static void frames_go_on_during_a_reload_and_a_later_one_replaces_it(void **stat
 
     /* the later one, and the importer is gone */
     write_config(other);
-    show->reloads = true;
+    show->wants_reload = true;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!is_shown(show, other)) {
         help_show_frames(show, 1);
@@ -154,7 +154,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
     help_show_frames(show, 2);
     const struct gn_gl *gl = show->screen.stage.gl;
     write_config(write_huge());
-    show->reloads = true;
+    show->wants_reload = true;
     wait_for_staging(show);
     help_show_frames(show, 20); /* a megabyte in each */
     assert_true(gn_show_reload_is_staged(&show->screen));
@@ -173,7 +173,7 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
 
     /* without room for two on the GPU the old one goes first */
     write_config(good);
-    show->reloads = true;
+    show->wants_reload = true;
     wait_for_staging(show);
     show->reload.alone = true;
     help_show_step(show);
@@ -183,10 +183,10 @@ static void frames_go_on_while_the_scene_of_a_reload_is_uploaded(void **state) {
 
     /* one that is not complete yet is dropped for a later one */
     write_config(other);
-    show->reloads = true;
+    show->wants_reload = true;
     wait_for_staging(show);
     write_config(in_folder("huge.gltf"));
-    show->reloads = true;
+    show->wants_reload = true;
     help_show_step(show);
     assert_false(gn_show_reload_is_staged(&show->screen));
     gn_show_close(show);
@@ -198,7 +198,7 @@ static void the_bar_counts_the_load_and_the_upload(void **state) {
     struct gn_show *show = open_show(good);
     help_show_frames(show, 2);
     write_config(write_huge());
-    show->reloads = true;
+    show->wants_reload = true;
     int before = -1, loads = 0, uploads = 0, values[101] = {0};
     bool staged = false; /* by now: the last step shows it, and stages nothing any more */
     const int64_t begun_ns = gn_clock_monotonic_ns();
@@ -224,7 +224,7 @@ static void a_bad_reload_keeps_the_scene(void **state) {
     help_show_frames(show, 2);
     help_write(folder, "bad.glb", "this is no scene");
     write_config(in_folder("bad.glb"));
-    show->reloads = true;
+    show->wants_reload = true;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     while (!show->config.options->config_error) {
         help_show_step(show);
@@ -246,7 +246,7 @@ static void the_first_picture_does_not_wait_for_the_first_scene(void **state) {
     help_show_frames(show, 1);
     assert_true(show->reload.first || gn_clock_monotonic_ns() - begun_ns > 2 * GN_NS_PER_S);
     write_config(other);
-    show->reloads = true; /* after the first load */
+    show->wants_reload = true; /* after the first load */
     while (show->reload.first) {
         help_show_step(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);

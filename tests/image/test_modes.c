@@ -308,6 +308,11 @@ static void a_bad_scene_changes_nothing(void **state) {
         assert_true(gn_clock_monotonic_ns() - begun_ns < 3 * PATIENCE_NS);
     }
     assert_int_equal(gn_problem_last_kind(&show->problems), GN_PROBLEM_SCENE);
+    gn_show_load_file(show, path);
+    while (gn_problem_last_kind(&show->problems) != GN_PROBLEM_FIRST) {
+        help_show_step(show);
+        assert_true(gn_clock_monotonic_ns() - begun_ns < 4 * PATIENCE_NS);
+    }
     help_show_frames(show, 2);
     gn_show_close(show);
     help_remove(folder);

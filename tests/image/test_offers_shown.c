@@ -71,7 +71,7 @@ static void until_shown(struct gn_show *show) {
     const uint64_t before = show->counts.frames;
     const int64_t begun_ns = gn_clock_monotonic_ns();
     show->screen.changed = true;
-    while (gn_kiosk_waits(&show->screen.kiosk) || show->reloads || show->reload.options ||
+    while (gn_kiosk_waits(&show->screen.kiosk) || show->wants_reload || show->reload.options ||
            show->counts.frames == before || show->screen.changed) {
         help_show_step(show);
         if (gn_clock_monotonic_ns() - begun_ns > PATIENCE_NS) fail_msg("nothing is shown");
@@ -122,7 +122,7 @@ static void cameras_are_gone_through(void **state) {
     press(show, GN_ACTION_NEXT);
     assert_string_equal(mode_of(show), "Near");
     press(show, GN_ACTION_PREV);
-    show->reloads = true; /* it stays where it is */
+    show->wants_reload = true; /* it stays where it is */
     until_shown(show);
     assert_string_equal(mode_of(show), "Camera 2");
     count_colors(show, &none, &near);

@@ -89,7 +89,7 @@ static void settle(struct gn_show *show) {
     do {
         step_soon(show);
         assert_true(gn_clock_monotonic_ns() - begun_ns < PATIENCE_NS);
-    } while (show->reloads || show->reload.options || gn_show_is_stale(&show->screen) ||
+    } while (show->wants_reload || show->reload.options || gn_show_is_stale(&show->screen) ||
              gn_kiosk_waits(&show->screen.kiosk) || !has_health(show));
 }
 
@@ -116,14 +116,14 @@ static void enter(struct gn_show *show, enum state state) {
     settle(show);
     assert_int_equal(show->screen.kiosk.asleep, state == ASLEEP);
     if (state != LOADING) return;
-    show->reloads = true;
+    show->wants_reload = true;
     step_soon(show);
     assert_non_null(show->reload.options);
 }
 
 static void reload(struct gn_show *show) {
     const struct gn_kiosk before = show->screen.kiosk;
-    show->reloads = true;
+    show->wants_reload = true;
     settle(show);
     if (show->config.options->config_error) fail_msg("%s", show->config.options->config_error);
     assert_int_equal(show->screen.kiosk.blanked, before.blanked);

@@ -89,7 +89,7 @@ static void a_turn_before_it_is_watched_is_seen(void **state) {
     until_mode_is(show, "Own");
     snprintf(config, sizeof config, "[kiosk]\ncontent = %s\n", top);
     write_config(path, config);
-    show->reloads = true;
+    show->wants_reload = true;
     while (!show->reload.options) help_show_step(show);
     turn("b");
     until_mode_is(show, "B");

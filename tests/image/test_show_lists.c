@@ -163,7 +163,7 @@ static struct taken show_list(struct gn_show *show, const char *path) {
         if (took_ms > taken.longest_ms) taken.longest_ms = took_ms;
         taken.all_s = 1e-9 * (double)(gn_clock_process_cpu_ns() - begun_ns);
         const bool loads =
-            steps < 4 || show->reloads || show->reload.options || show->screen.staged.loaded;
+            steps < 4 || show->wants_reload || show->reload.options || show->screen.staged.loaded;
         if (loads) taken.shown_s = taken.all_s;
         if (taken.shown_s > 2 * SHOWN_S || (!loads && !gn_show_has_work(&show->screen))) break;
     }

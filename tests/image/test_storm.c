@@ -1,6 +1,6 @@
-/* A kiosk in a storm of reloads and next-scenes out of good, bad, huge and slow scenes: the longest
- * time without a frame, without an answer over the socket and without WATCHDOG=1; and SIGTERM at
- * random moments of it. GN_OPERATIONS: so many operations. */
+/* A kiosk in a storm of wants_reload and next-scenes out of good, bad, huge and slow scenes: the
+ * longest time without a frame, without an answer over the socket and without WATCHDOG=1; and
+ * SIGTERM at random moments of it. GN_OPERATIONS: so many operations. */
 #include "unit/check.h"
 
 #include <signal.h>
@@ -93,7 +93,7 @@ static void note_frame(const struct gn_show *show, struct span span) {
 }
 
 static bool is_changing(const struct gn_show *show) {
-    return show->reloads || show->reload.options || gn_kiosk_waits(&show->screen.kiosk);
+    return show->wants_reload || show->reload.options || gn_kiosk_waits(&show->screen.kiosk);
 }
 
 /* What the frames of each scene take by themselves. Casters that seem to have moved: the map is
@@ -267,7 +267,7 @@ static void nothing_waits_for_a_scene(void **state) {
         if (mb > *peak_mb) *peak_mb = mb;
         if (rand() % 2) {
             write_config();
-            show->reloads = true;
+            show->wants_reload = true;
         } else {
             const struct gn_action next = {.kind = GN_ACTION_NEXT_SCENE};
             gn_show_act(&show->screen, &next, gn_clock_monotonic_ns());

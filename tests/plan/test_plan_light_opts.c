@@ -175,8 +175,8 @@ static void test_the_radius_of_a_filter_is_as_set(void **state) {
     assert_int_equal(view_of(plan, 0)->lookup.margin_px, 4);
     assert_int_equal(view_of(plan, 1)->lookup.margin_px, 7);
     assert_non_null(lit_of(plan));
-    assert_false(lit_of(plan)->lights[0].filter_set);
-    assert_true(lit_of(plan)->lights[1].filter_set);
+    assert_false(lit_of(plan)->lights[0].radius_set);
+    assert_true(lit_of(plan)->lights[1].radius_set);
     f.opts.shadow.lights[0].filter_radius_px = 0.0f;
     GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCF);
     GN_LIGHT_SET(&f.opts.shadow.any, filter_radius_px, 30.0f); /* more than its taps can have */
@@ -184,16 +184,16 @@ static void test_the_radius_of_a_filter_is_as_set(void **state) {
     const struct gn_shadow_lookup *wide = &view_of(plan, 0)->lookup;
     assert_true(wide->filter_radius_px == 2.0f && wide->margin_px == 2);
     assert_true(fabsf(wide->bias_texels - 1.2f) < 1e-6f);
-    assert_false(lit_of(plan)->lights[1].filter_set);
+    assert_false(lit_of(plan)->lights[1].radius_set);
     GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_PCF5); /* it has one radius */
     plan = gn_plan_make(&f);
     assert_true(view_of(plan, 0)->lookup.filter_radius_px == 0.0f);
-    assert_false(lit_of(plan)->lights[0].filter_set);
+    assert_false(lit_of(plan)->lights[0].radius_set);
     GN_LIGHT_SET(&f.opts.shadow.any, technique, GN_TECHNIQUE_VSM);
     GN_LIGHT_SET(&f.opts.shadow.any, filter_radius_px, 3.0f);
     plan = gn_plan_make(&f);
     assert_true(view_of(plan, 0)->penumbra.blur_px == 3.0f);
-    assert_false(lit_of(plan)->lights[0].filter_set); /* the map is blurred */
+    assert_false(lit_of(plan)->lights[0].radius_set); /* the map is blurred */
     gn_plan_end(&f);
 }
 

@@ -67,13 +67,13 @@ static void test_lights(void **state) {
     (void)state;
     struct gn_program_key key = lit_key();
     key.light_count = 4, key.shadow_count = 3;
-    key.lights[0] = (struct gn_light_key){
+    key.lights[0] = (struct gn_program_light){
         .type = GN_LIGHT_SPOT, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
-    key.lights[1] = (struct gn_light_key){
+    key.lights[1] = (struct gn_program_light){
         .type = GN_LIGHT_DIRECTIONAL, .technique = GN_TECHNIQUE_PCF, .encoding = GN_ENCODING_DEPTH};
-    key.lights[2] = (struct gn_light_key){
+    key.lights[2] = (struct gn_program_light){
         .type = GN_LIGHT_DIRECTIONAL, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
-    key.lights[3] = (struct gn_light_key){.type = GN_LIGHT_POINT, .ranged = 1};
+    key.lights[3] = (struct gn_program_light){.type = GN_LIGHT_POINT, .ranged = 1};
     char *text = compose(&key, GN_GL_FRAGMENT);
     has(text, "#define WITH_SHADOWS 1\n");
     has(text,
@@ -101,11 +101,11 @@ static void test_slides_go_with_their_lights(void **state) {
     help_write(folder, "lib/slide.glsl", "// slide\n");
     struct gn_program_key key = lit_key();
     key.light_count = 3, key.shadow_count = 1;
-    key.lights[0] = (struct gn_light_key){
+    key.lights[0] = (struct gn_program_light){
         .type = GN_LIGHT_SPOT, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
-    key.lights[1] = (struct gn_light_key){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_LIT};
+    key.lights[1] = (struct gn_program_light){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_LIT};
     key.lights[2] =
-        (struct gn_light_key){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_DARK, .slide_ends = 1};
+        (struct gn_program_light){.type = GN_LIGHT_SPOT, .slide = GN_SLIDE_DARK, .slide_ends = 1};
     char *text = compose(&key, GN_GL_FRAGMENT);
     has(text, "uniform mediump sampler2D u_slide_0;\nuniform mediump sampler2D u_slide_1;\n");
     has(text, "#define WITH_SLIDES 1\n#define EACH_SLIDE(F)"
@@ -208,9 +208,9 @@ static void test_key_text(void **state) {
     char text[200];
     key.features = GN_FEATURE(UNLIT) | GN_FEATURE(ALPHA_MASK);
     key.light_count = 2, key.shadow_count = 1;
-    key.lights[0] = (struct gn_light_key){
+    key.lights[0] = (struct gn_program_light){
         .type = GN_LIGHT_SPOT, .technique = GN_TECHNIQUE_HARD, .encoding = GN_ENCODING_R16F};
-    key.lights[1] = (struct gn_light_key){.type = GN_LIGHT_POINT};
+    key.lights[1] = (struct gn_program_light){.type = GN_LIGHT_POINT};
     gn_gl_key_text(&key, text, sizeof text);
     assert_string_equal(text, "lit ALPHA_MASK|UNLIT, SPOT hard r16f, POINT");
     gn_gl_key_text(&key, text, 8);

@@ -258,9 +258,9 @@ static void plan_map(enum gn_encoding encoding, float code, float far_code) {
     s.programs[0].encoding = encoding == GN_ENCODING_DEPTH ? 0 : (uint8_t)encoding;
     s.programs[1].kind = GN_PROGRAM_LIT;
     s.programs[1].light_count = s.programs[1].shadow_count = 1;
-    s.programs[1].lights[0] = (struct gn_light_key){.type = GN_LIGHT_DIRECTIONAL,
-                                                    .technique = GN_TECHNIQUE_HARD,
-                                                    .encoding = (uint8_t)encoding};
+    s.programs[1].lights[0] = (struct gn_program_light){.type = GN_LIGHT_DIRECTIONAL,
+                                                        .technique = GN_TECHNIQUE_HARD,
+                                                        .encoding = (uint8_t)encoding};
 }
 
 static void check_map(enum gn_encoding encoding, float code, float far_code, int seen) {

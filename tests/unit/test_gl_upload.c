@@ -80,15 +80,15 @@ static void test_small_pictures_are_uploaded_a_few_at_a_time(void **state) {
         .images = images, .textures = textures, .image_count = COUNT, .texture_count = COUNT};
     scene.materials = materials;
     scene.material_count = COUNT;
-    gn_gl_stage(gl, &scene);
+    gn_gl_staged_begin(gl, &scene);
     bool whole = false;
     while (!whole) {
         const uint64_t before = gl->objects_created;
-        assert_true(gn_gl_stage_step(gl, 1 << 20, &whole, &err));
+        assert_true(gn_gl_staged_step(gl, 1 << 20, &whole, &err));
         assert_true(gl->objects_created - before <= 65);
     }
     assert_int_equal(gl->staged->texture_bytes, COUNT * 16);
-    gn_gl_stage(gl, NULL);
+    gn_gl_staged_begin(gl, NULL);
     free(images);
     free(textures);
     free(materials);

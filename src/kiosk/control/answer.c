@@ -170,7 +170,7 @@ static json_t *ask_reload(struct gn_show *s, const struct waiting *w, enum gn_re
     gn_fail(&replaced, "a later reload replaces this one");
     if (a->reload.request) refuse(&a->reload, &replaced);
     a->reload = *w;
-    s->reloads = true;
+    s->wants_reload = true;
     s->wish.cause = cause;
     snprintf(s->wish.file, sizeof s->wish.file, "%s", file);
     return NULL;
@@ -198,7 +198,8 @@ static json_t *answer_rollback(struct gn_show *s, const struct waiting *w, struc
 
 void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
     struct answers *a = answers_of(s);
-    if (!a->reload.request || s->reloads) return; /* what is asked for waits for the first scene */
+    if (!a->reload.request || s->wants_reload)
+        return; /* what is asked for waits for the first scene */
     if (why)
         refuse(&a->reload, why);
     else

@@ -64,7 +64,7 @@ static int word_at(struct gn_gltf *g, const struct gn_at *at, const char *key,
     return -1;
 }
 
-/* False: the load failed. */
+/* False: failed, which gn_gltf_buffers() may spare. */
 static bool read_stream(struct gn_gltf *g, const struct gn_at *at, struct gn_meshopt_stream *out) {
     const int32_t index = gn_at_ref(g, at, "buffer", g->file.buffer_count, "buffers");
     const uint64_t offset = gn_at_uint(g, at, "byteOffset", 0);

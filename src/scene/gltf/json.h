@@ -50,8 +50,8 @@ int32_t gn_at_ref(struct gn_gltf *g, const struct gn_at *up, const char *path, s
 int32_t gn_at_spare_ref(struct gn_gltf *g, const struct gn_at *up, const char *path, size_t count,
                         const char *what);
 int32_t gn_at_ref_here(struct gn_gltf *g, const struct gn_at *at, size_t count, const char *what);
-/* A finite number; a whole one below 2^63 (all numbers are reals here). False without a failure of
- * the load. */
+/* A finite number; a whole one below 2^63 (in the file it may be an integer or a real). False
+ * without a failure of the load. */
 bool gn_json_number(const json_t *json, double *out);
 bool gn_json_whole(const json_t *json, int64_t *out);
 /* The index of a string among names, or -1. */

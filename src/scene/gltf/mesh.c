@@ -1,6 +1,6 @@
 /* Maps the primitives of the used meshes to geometries. Primitives with the same accessors share a
  * geometry, and geometries with the same vertex accessors share their vertices. Reads only the
- * headers of accessors. */
+ * headers of accessors, and makes sparse ones dense. */
 #include "scene/private.h"
 
 #include <inttypes.h>
@@ -50,7 +50,8 @@ int32_t gn_gltf_attribute(struct gn_gltf *g, const struct gn_at *of, const char 
     return g->failed ? -1 : index;
 }
 
-/* The number of vertices, or 0: failed, or nothing to show (with a warning). Tangents are read
+/* The number of vertices, or 0: failed, or nothing to show (with a warning, or a note of what is
+ * missing). Tangents are read
  * where there are normals and a normal map needs them. */
 static size_t read_attributes(struct gn_gltf *g, const struct gn_at *primitive, bool with_tangents,
                               bool with_skin, const uint64_t uv_sets[GN_UV_SETS], int32_t *out) {
@@ -174,12 +175,12 @@ static bool add_primitive(struct reader *reader, const struct gn_at *primitive,
                           const struct gn_shape *base, int32_t material, uint64_t hidden_in) {
     struct gn_gltf *g = reader->g;
     struct gn_shape shape = *base;
-    shape.tangents = gn_gltf_tangents(g, material);
+    shape.tangents = gn_gltf_tangents(g, material); /* choose_tangents() leaves those to make */
     uint64_t uv_sets[GN_UV_SETS];
     gn_gltf_uv_sets(g, material, uv_sets);
     if (g->failed || !read_shape(g, primitive, uv_sets, &shape)) return false;
     choose_tangents(g, primitive, uv_sets, &shape);
-    uint32_t *known = gn_table_find(&reader->shapes, shape.attribute);
+    uint32_t *known = gn_table_find(&reader->shapes, shape.attribute); /* and what follows it */
     if (*known == 0) {
         /* only vertices with all in the file are shared: flat normals and tangents depend on the
          * triangles */
