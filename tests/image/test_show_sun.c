@@ -61,9 +61,10 @@ static double step_of(const struct gn_show *show) {
 static void a_day_follows_the_clock_and_its_jumps(void **state) {
     (void)state;
     const int64_t begin_s = 1782014400; /* 21 June 2026, 4 h UTC */
-    struct gn_show *show = open_show(PLACE "[kiosk]\ncaptions = no\n[render]\ngather = none\n"
-                                           "[mode \"a\"]\nshadow = hard\n",
-                                     begin_s);
+    struct gn_show *show =
+        open_show(PLACE "[kiosk]\ncaptions = no\n[render]\ngather = none\nocclusion = none\n"
+                        "[mode \"a\"]\nshadow = hard\n",
+                  begin_s);
     run(show, 30 * GN_NS_PER_S);
     const double step_s = step_of(show);
     assert_shown(show, (double)(clock_ns + ahead_ns) * 1e-9, step_s + 1);
@@ -86,9 +87,10 @@ static void its_step_is_a_pixel_of_shadow(void **state) {
     (void)state;
     static const struct gn_place berlin = {52.5, 13.4};
     const double noon_s = 1782045600; /* 21 June 2026, 12:40 UTC */
-    struct gn_show *show = open_show(PLACE "[kiosk]\ncaptions = no\n[render]\ngather = none\n"
-                                           "[mode \"a\"]\nshadow = hard\n",
-                                     (int64_t)noon_s);
+    struct gn_show *show =
+        open_show(PLACE "[kiosk]\ncaptions = no\n[render]\ngather = none\nocclusion = none\n"
+                        "[mode \"a\"]\nshadow = hard\n",
+                  (int64_t)noon_s);
     run(show, GN_NS_PER_S);
     const struct gn_stage *stage = &show->screen.stage;
     struct gn_frame_opts opts = stage->shown.opts;
