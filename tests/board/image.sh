@@ -129,7 +129,7 @@ stood=0
 for try in $(seq "${TIMES:-3}"); do
     switch_on
     at_s=$((20 + RANDOM % 160))
-    [ $at_s -lt 80 ] || { wait_for_picture "start $try" && stood=$((stood + 1)); } # the others are cut while they start
+    [ $at_s -lt 80 ] || { wait_for_picture "start-$try" && stood=$((stood + 1)); } # the others are cut while they start
     while kill -0 "$machine" 2> /dev/null && [ "$(cpu_s)" -lt "$at_s" ]; do sleep 1; done
     switch_off
 done
