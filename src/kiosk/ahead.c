@@ -131,7 +131,7 @@ static void drop_programs(struct gn_show_screen *s) {
 
 /* Only while the wanted mode is shown and no scene is staged: their programs could be dropped. The
  * plan of a mode whose programs are there takes time as well, of a scene with many items. */
-static bool work_on_modes(struct gn_show_screen *s, int64_t until_ns) {
+static bool work_on_others(struct gn_show_screen *s, int64_t until_ns) {
     const int shown = s->kiosk.shown.mode;
     if (!s->ahead.keeps) {
         gn_gl_keep_programs(s->stage.gl, plan_mode(s, &s->looks, &s->stage.shown, shown));
@@ -139,7 +139,7 @@ static bool work_on_modes(struct gn_show_screen *s, int64_t until_ns) {
         s->ahead.keeps = true;
         if (gn_loop_now_ns(s->show->loop) >= until_ns) return true;
     }
-    for (int i = 0; i < s->show->modes.count; i++) { /* of the shown one, what is not in sight */
+    for (int i = 1; i < s->show->modes.count; i++) {
         const int mode = (shown + i) % s->show->modes.count;
         if ((s->looks.made | s->rules.passed_by) >> mode & 1) continue;
         if (warm_mode(s, &s->looks, &s->stage.shown, mode, false))
@@ -259,7 +259,7 @@ static bool work_once(struct gn_show_screen *s, int64_t until_ns) {
     const int wanted = s->kiosk.wanted.mode;
     if (!(s->looks.ready >> wanted & 1) && warm_mode(s, &s->looks, &s->stage.shown, wanted, true))
         return true;
-    return wanted == s->kiosk.shown.mode && !s->staged.loaded && work_on_modes(s, until_ns);
+    return wanted == s->kiosk.shown.mode && !s->staged.loaded && work_on_others(s, until_ns);
 }
 
 void gn_show_work(struct gn_show_screen *s) {
