@@ -7,9 +7,9 @@ static const int ground[3] = {0x20, 0x24, 0x28}, ink = 0xe8; /* red, green, blue
 
 /* The pixel at column u of row v of the upright picture. */
 static uint8_t *pixel_at(const struct gn_message_picture *p, uint32_t u, uint32_t v) {
-    const struct gn_turn turn = {p->turn_deg, p->width_px, p->height_px};
+    const struct gn_turned turn = {p->turn_deg, p->width_px, p->height_px};
     uint32_t to[2];
-    gn_turn_place(&turn, u, v, to);
+    gn_turned_place(&turn, u, v, to);
     return p->pixels + to[1] * p->stride + 4ul * to[0];
 }
 

@@ -6,6 +6,7 @@
 
 #include "blocks.glsl"
 #include "core/arena.h"
+#include "core/turn.h"
 #include "frame/private.h"
 
 struct gn_frame *gn_frame_create(const struct gn_scene *scene, const struct gn_caps *caps) {
@@ -180,15 +181,18 @@ static void choose_size(struct gn_plan *plan, const struct gn_frame_opts *opts) 
 static void turn_picture(struct gn_frame *frame, const struct gn_frame_opts *opts) {
     static const float turns[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
     const struct gn_plan *plan = &frame->plan;
-    const bool on_side = opts->output.turn_deg / 90 % 2;
-    frame->picture.width_px = on_side ? plan->height_px : plan->width_px;
-    frame->picture.height_px = on_side ? plan->width_px : plan->height_px;
+    const unsigned deg = opts->output.turn_deg;
+    const struct gn_turned_size size = gn_turned_upright(deg, plan->width_px, plan->height_px),
+                                shown = gn_turned_upright(deg, plan->shown_width_px,
+                                                          plan->shown_height_px);
+    frame->picture.width_px = size.width_px;
+    frame->picture.height_px = size.height_px;
     frame->picture.scale = (float)plan->width_px /
                            (float)(opts->output.width_px ? opts->output.width_px : plan->width_px);
-    frame->picture.shown_width_px = on_side ? plan->shown_height_px : plan->shown_width_px;
-    frame->picture.shown_height_px = on_side ? plan->shown_width_px : plan->shown_height_px;
-    frame->picture.turn_deg = opts->output.turn_deg % 360;
-    memcpy(frame->picture.turn, turns[opts->output.turn_deg / 90 % 4], sizeof frame->picture.turn);
+    frame->picture.shown_width_px = shown.width_px;
+    frame->picture.shown_height_px = shown.height_px;
+    frame->picture.turn_deg = deg % 360;
+    memcpy(frame->picture.turn, turns[deg / 90 % 4], sizeof frame->picture.turn);
 }
 
 /* Whatever is drawn after it is as large as the picture that is shown. */

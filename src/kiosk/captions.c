@@ -6,6 +6,7 @@
 #include "core/clock.h"
 #include "core/file.h"
 #include "core/text.h"
+#include "core/turn.h"
 #include "kiosk/private.h"
 
 void gn_show_open_captions(struct gn_show_screen *s) {
@@ -206,18 +207,12 @@ static void write_change(struct gn_show_screen *s, const struct gn_kiosk_view *v
     gn_captions_set(t->captions, GN_CAPTION_MODE, change_text(s, view, info), now_ns);
 }
 
-struct size {
-    uint32_t width_px, height_px;
-};
-
-/* Of the picture before it is turned. */
-static struct size upright(const struct gn_frame_output_opts *o) {
-    return o->turn_deg % 180 == 0 ? (struct size){o->width_px, o->height_px}
-                                  : (struct size){o->height_px, o->width_px};
+static struct gn_turned_size upright(const struct gn_frame_output_opts *o) {
+    return gn_turned_upright(o->turn_deg, o->width_px, o->height_px);
 }
 
 const struct gn_caption_run *gn_show_sample_captions(const struct gn_show_screen *s) {
-    const struct size size = upright(&s->stage.shown.opts.output);
+    const struct gn_turned_size size = upright(&s->stage.shown.opts.output);
     return gn_captions_sample(s->text.captions, size.width_px, size.height_px);
 }
 
@@ -225,7 +220,7 @@ void gn_show_write_captions(struct gn_show_screen *s, const struct gn_kiosk_view
                             int64_t now_ns) {
     struct gn_show_text *t = &s->text;
     struct gn_frame_opts *f = &s->stage.shown.opts;
-    const struct size size = upright(&f->output);
+    const struct gn_turned_size size = upright(&f->output);
     char title[120];
     struct gn_info info = {
         .scene = write_title(s->show->scenes.paths[view->scene], title),

@@ -133,9 +133,9 @@ uint8_t *gn_screenshot_begin(struct gn_screenshot *shot, uint32_t width_px, uint
 
 /* The index of pixel (u, v) of the upright picture in the turned one. */
 static size_t pixel_index(const struct gn_screenshot *s, uint32_t u, uint32_t v) {
-    const struct gn_turn turn = {s->turn_deg, s->width_px, s->height_px};
+    const struct gn_turned turn = {s->turn_deg, s->width_px, s->height_px};
     uint32_t to[2];
-    gn_turn_place(&turn, u, v, to);
+    gn_turned_place(&turn, u, v, to);
     return (size_t)to[1] * s->width_px + to[0];
 }
 
@@ -158,9 +158,8 @@ static bool write_memory(int fd, const struct gn_bytes *png, struct gn_err *err)
 
 static void *write_in_thread(void *user) {
     struct gn_screenshot *s = user;
-    const bool on_side = s->turn_deg % 180 != 0;
-    const uint32_t width = on_side ? s->height_px : s->width_px;
-    const uint32_t height = on_side ? s->width_px : s->height_px;
+    const struct gn_turned_size size = gn_turned_upright(s->turn_deg, s->width_px, s->height_px);
+    const uint32_t width = size.width_px, height = size.height_px;
     struct gn_bytes png = {0};
     gn_thread_lower_priority();
     uint8_t *rgb = gn_picture_alloc((size_t)width * height, 3, &s->err);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "core/turn.h"
 #include "kiosk/private.h"
 
 enum { REACH_PX = 12, LINE_PX = 2 }; /* of the mouse to each side of the line; the line's half */
@@ -119,9 +120,8 @@ static bool find_ground(const struct gn_caption_run *run, uint32_t from, uint32_
 /* The line lies below texts and its handle, which are drawn already. */
 void gn_split_lay_over(struct gn_show_screen *s) {
     const struct gn_frame_output_opts *o = &s->stage.shown.opts.output;
-    const bool on_side = o->turn_deg % 180 != 0;
-    const struct upright u = {s->stage.gl, o->turn_deg, on_side ? o->height_px : o->width_px,
-                              on_side ? o->width_px : o->height_px};
+    const struct gn_turned_size size = gn_turned_upright(o->turn_deg, o->width_px, o->height_px);
+    const struct upright u = {s->stage.gl, o->turn_deg, size.width_px, size.height_px};
     const uint32_t at = (uint32_t)lroundf(s->split.at * (float)u.width_px),
                    left = at > LINE_PX ? at - LINE_PX : 0,
                    right = at + LINE_PX < u.width_px ? at + LINE_PX : u.width_px;

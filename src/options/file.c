@@ -33,8 +33,7 @@ struct load {
     const char *path;
     const struct gn_config_over *over;    /* NULL: it is the machine's own */
     const struct gn_section_row *section; /* that is read: its kind; */
-    struct gn_named_section
-        *one; /* and of many the one of that name, as [mode "Soft"]; else NULL */
+    struct gn_named_section *one;         /* and of many that one, as [mode "Soft"]; else NULL */
     struct gn_sections many[GN_SECTION_COUNT];
     int lines[GN_OPTION_COUNT]; /* where each was set in sections that are not of many */
 };

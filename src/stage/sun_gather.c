@@ -44,9 +44,9 @@ static uint32_t upright_height(const struct gn_sun_gather *g) {
 
 /* The pixel of the output at that one of the upright picture. */
 static size_t place_of(const struct gn_sun_gather *g, uint32_t u, uint32_t v) {
-    const struct gn_turn turn = {g->turn_deg, g->width_px, g->height_px};
+    const struct gn_turned turn = {g->turn_deg, g->width_px, g->height_px};
     uint32_t to[2];
-    gn_turn_place(&turn, u, v, to);
+    gn_turned_place(&turn, u, v, to);
     return (size_t)to[1] * g->width_px + to[0];
 }
 

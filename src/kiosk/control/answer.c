@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "core/clock.h"
+#include "core/turn.h"
 #include "kiosk/private.h"
 #include "kiosk/screenshot.h"
 
@@ -92,10 +93,10 @@ static const char *why_dark(const struct gn_show *s) {
 static void begin_dark(struct gn_show *s, const char *why) {
     const struct gn_screen *screen = &s->screen.stage.display.screen;
     const struct gn_size *size = &s->screen.stage.settings->render.size;
-    const bool known = screen->width_px > 0 && screen->height_px > 0,
-               on_side = screen->rotate_deg % 180 != 0;
-    const uint32_t width = known ? screen->width_px : (uint32_t)size->width_px,
-                   height = known ? screen->height_px : (uint32_t)size->height_px;
+    const bool known = screen->width_px > 0 && screen->height_px > 0;
+    const struct gn_turned_size upright =
+        gn_turned_upright(screen->rotate_deg, known ? screen->width_px : (uint32_t)size->width_px,
+                          known ? screen->height_px : (uint32_t)size->height_px);
     const char *font = s->screen.stage.settings->render.font;
     char text[300];
     struct gn_err err = {0};
@@ -103,8 +104,7 @@ static void begin_dark(struct gn_show *s, const char *why) {
         snprintf(text, sizeof text, "Screen off. gnomon ctl blank off turns it on.");
     else
         snprintf(text, sizeof text, "Nothing is shown: %.280s.", why);
-    if (!gn_screenshot_say(s->screenshot, on_side ? height : width, on_side ? width : height, font,
-                           text, &err))
+    if (!gn_screenshot_say(s->screenshot, upright.width_px, upright.height_px, font, text, &err))
         gn_screenshot_fail(s->screenshot, &err);
 }
 
@@ -198,8 +198,8 @@ static json_t *answer_rollback(struct gn_show *s, const struct waiting *w, struc
 
 void gn_show_answer_reload(struct gn_show *s, const struct gn_err *why) {
     struct answers *a = answers_of(s);
-    if (!a->reload.request || s->wants_reload)
-        return; /* what is asked for waits for the first scene */
+    /* what is asked for waits for the first scene */
+    if (!a->reload.request || s->wants_reload) return;
     if (why)
         refuse(&a->reload, why);
     else
