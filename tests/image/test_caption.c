@@ -382,6 +382,29 @@ static void test_frames_make_nothing(void **state) {
     assert_int_equal(gn_alloc_count(), allocations);
 }
 
+static bool count_pieces(void *user, uint64_t pieces, int64_t run_ns, struct gn_err *why) {
+    (void)run_ns;
+    (void)why;
+    *(uint64_t *)user = pieces;
+    return true;
+}
+
+/* Its rectangles cover the picture together, and not each of them. */
+static void test_a_text_is_no_long_frame(void **state) {
+    (void)state;
+    uint64_t pieces = 0;
+    gn_gl_set_pause(stage.gl, count_pieces, &pieces);
+    draw(NULL, NULL);
+    const uint64_t before = pieces;
+    draw(NULL, NULL);
+    const uint64_t bare_pieces = pieces - before;
+    const struct gn_caption_run *run = run_at(0);
+    assert_true(run->quad_count > 100);
+    draw(run, NULL);
+    gn_gl_set_pause(stage.gl, NULL, NULL);
+    assert_in_range(pieces - before - bare_pieces, 0, bare_pieces + 1);
+}
+
 static void test_a_sample_makes_all_that_a_text_needs(void **state) {
     (void)state;
     const struct gn_caption_run *sample =
@@ -411,6 +434,7 @@ int main(void) {
         TEST(test_a_dimmed_picture_has_less_light),
         TEST(test_the_pass_says_where_it_draws),
         TEST(test_frames_make_nothing),
+        TEST(test_a_text_is_no_long_frame),
         TEST(test_a_sample_makes_all_that_a_text_needs),
     };
     int failed = cmocka_run_group_tests_name("egl", tests, open_egl, close_all);

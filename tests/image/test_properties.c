@@ -183,72 +183,69 @@ static void test_lights(void **state) {
     ",'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':" factor                          \
     ",'clearcoatRoughnessFactor':0.5}}"
 
+static const struct {
+    const char *name, *moving, *still;
+    struct move move;
+} materials[] = {
+    {"base colour",
+     "'name':'a'",
+     PBR("'baseColorFactor':[0.5,0,0.5,1]"),
+     {"/materials/0/pbrMetallicRoughness/baseColorFactor", 4, {1, 0, 0, 1}, {0, 0, 1, 1}, 0}},
+    {"metal",
+     PBR("'metallicFactor':0,'roughnessFactor':0.4"),
+     PBR("'metallicFactor':0.5,'roughnessFactor':0.4"),
+     {"/materials/0/pbrMetallicRoughness/metallicFactor", 1, {0}, {1}, 0}},
+    {"roughness",
+     PBR("'roughnessFactor':1"),
+     PBR("'roughnessFactor':0.5"),
+     {"/materials/0/pbrMetallicRoughness/roughnessFactor", 1, {.9f}, {.1f}, 0}},
+    {"emissive",
+     "'name':'a'",
+     "'emissiveFactor':[0.1,0.3,0.1]",
+     {"/materials/0/emissiveFactor", 3, {0, 0, 0}, {.2f, .6f, .2f}, 0}},
+    {"emissive strength",
+     "'emissiveFactor':[0.1,0.1,0]",
+     "'emissiveFactor':[0.1,0.1,0],'extensions':{'KHR_materials_emissive_strength':{"
+     "'emissiveStrength':3}}",
+     {"/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength", 1, {0}, {6}, 0}},
+    {"ior",
+     PBR("'metallicFactor':0,'roughnessFactor':0.5"),
+     PBR("'metallicFactor':0,'roughnessFactor':0.5") ",'extensions':{'KHR_materials_ior':{"
+                                                     "'ior':3}}",
+     {"/materials/0/extensions/KHR_materials_ior/ior", 1, {1.5f}, {4.5f}, 0}},
+    {"coat",
+     COATED("0"),
+     COATED("0.5"),
+     {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", 1, {0}, {1}, 0}},
+    {"cutoff",
+     CUT ",'alphaCutoff':0.001",
+     CUT ",'alphaCutoff':0.8",
+     {"/materials/0/alphaCutoff", 1, {0}, {1.6f}, 0}},
+    {"offset",
+     TEXTURED("'offset':[0,0]"),
+     TEXTURED("'offset':[0.3,0.1]"),
+     {"/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/"
+      "offset",
+      2,
+      {0, 0},
+      {.6f, .2f},
+      0}},
+    {"rotation",
+     TEXTURED("'rotation':0"),
+     TEXTURED("'rotation':0.5"),
+     {"/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/"
+      "rotation",
+      1,
+      {0},
+      {1},
+      0}},
+};
+
 static void test_materials(void **state) {
     (void)state;
-    static const struct {
-        const char *name, *moving, *still;
-        struct move move;
-    } cases[] = {
-        {"base colour",
-         "'name':'a'",
-         PBR("'baseColorFactor':[0.5,0,0.5,1]"),
-         {"/materials/0/pbrMetallicRoughness/baseColorFactor", 4, {1, 0, 0, 1}, {0, 0, 1, 1}, 0}},
-        {"metal",
-         PBR("'metallicFactor':0,'roughnessFactor':0.4"),
-         PBR("'metallicFactor':0.5,'roughnessFactor':0.4"),
-         {"/materials/0/pbrMetallicRoughness/metallicFactor", 1, {0}, {1}, 0}},
-        {"roughness",
-         PBR("'roughnessFactor':1"),
-         PBR("'roughnessFactor':0.5"),
-         {"/materials/0/pbrMetallicRoughness/roughnessFactor", 1, {.9f}, {.1f}, 0}},
-        {"emissive",
-         "'name':'a'",
-         "'emissiveFactor':[0.1,0.3,0.1]",
-         {"/materials/0/emissiveFactor", 3, {0, 0, 0}, {.2f, .6f, .2f}, 0}},
-        {"emissive strength",
-         "'emissiveFactor':[0.1,0.1,0]",
-         "'emissiveFactor':[0.1,0.1,0],'extensions':{'KHR_materials_emissive_strength':{"
-         "'emissiveStrength':3}}",
-         {"/materials/0/extensions/KHR_materials_emissive_strength/emissiveStrength",
-          1,
-          {0},
-          {6},
-          0}},
-        {"ior",
-         PBR("'metallicFactor':0,'roughnessFactor':0.5"),
-         PBR("'metallicFactor':0,'roughnessFactor':0.5") ",'extensions':{'KHR_materials_ior':{"
-                                                         "'ior':3}}",
-         {"/materials/0/extensions/KHR_materials_ior/ior", 1, {1.5f}, {4.5f}, 0}},
-        {"coat",
-         COATED("0"),
-         COATED("0.5"),
-         {"/materials/0/extensions/KHR_materials_clearcoat/clearcoatFactor", 1, {0}, {1}, 0}},
-        {"cutoff",
-         CUT ",'alphaCutoff':0.001",
-         CUT ",'alphaCutoff':0.8",
-         {"/materials/0/alphaCutoff", 1, {0}, {1.6f}, 0}},
-        {"offset",
-         TEXTURED("'offset':[0,0]"),
-         TEXTURED("'offset':[0.3,0.1]"),
-         {"/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/"
-          "offset",
-          2,
-          {0, 0},
-          {.6f, .2f},
-          0}},
-        {"rotation",
-         TEXTURED("'rotation':0"),
-         TEXTURED("'rotation':0.5"),
-         {"/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/"
-          "rotation",
-          1,
-          {0},
-          {1},
-          0}},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_half_way(cases[i].name, &(struct how){"", cases[i].moving, "", ""}, &cases[i].move,
-                        &(struct how){"", cases[i].still, "", ""}, "pcf");
+    for (size_t i = 0; i < sizeof materials / sizeof *materials; i++)
+        assert_half_way(materials[i].name, &(struct how){"", materials[i].moving, "", ""},
+                        &materials[i].move, &(struct how){"", materials[i].still, "", ""}, "pcf");
 }
 
 static void test_cameras(void **state) {

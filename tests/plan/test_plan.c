@@ -353,6 +353,12 @@ static void test_overlay_plan(void **state) {
     gn_plan_end(&f);
 }
 
+/* Then makes it anew. */
+static void assert_broken(struct gn_plan *plan, struct gn_plan_fixture *f) {
+    assert_non_null(gn_plan_check(plan));
+    *plan = *gn_plan_make(f);
+}
+
 static void test_check_finds_what_is_broken(void **state) {
     (void)state;
     struct gn_plan_fixture f;
@@ -360,36 +366,27 @@ static void test_check_finds_what_is_broken(void **state) {
     struct gn_plan plan = *gn_plan_make(&f);
     assert_null(gn_plan_check(&plan));
     plan.program_count = 0;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.instance_count--;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[0].clear.area = GN_CLEAR_NOTHING;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[plan.pass_count - 1].picture.blend =
         GN_BLEND_ADD; /* with programs that do not add */
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[plan.pass_count - 1].rect = (struct gn_rect){1, 0, plan.width_px, 1};
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[plan.pass_count - 1].picture.shadow_count = 1; /* its programs read two */
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.draws[0].geometry = GN_NO_GEOMETRY;
     assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f); /* passes 0-3 are pages, 4 puts them together */
+    /* passes 0-3 are pages, 4 puts them together */
     plan.passes[3].content.hash++;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[1].clear.area = GN_CLEAR_ALL;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[4].copy.copies[0].to_x = plan.passes[4].target.width_px;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[4].copy.count = 0;
     assert_non_null(gn_plan_check(&plan));
     f.opts.shadow.planar_in_stencil = true;
@@ -397,20 +394,15 @@ static void test_check_finds_what_is_broken(void **state) {
     plan = *gn_plan_make(&f);
     assert_null(gn_plan_check(&plan));
     plan.stencil = false;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[2].picture.only_stencil = false; /* its programs write nothing else */
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[1].picture.stencil.value = 0x80, plan.passes[1].picture.stencil.writes = 0x7f;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[1].picture.reads_atlas = true;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[plan.pass_count - 1].picture.resolves = false;
-    assert_non_null(gn_plan_check(&plan));
-    plan = *gn_plan_make(&f);
+    assert_broken(&plan, &f);
     plan.passes[0].kind = GN_PASS_COPY; /* with a target and draws of a picture */
     assert_non_null(gn_plan_check(&plan));
     gn_plan_end(&f);
