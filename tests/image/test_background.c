@@ -25,8 +25,7 @@ static const char *make_scene(const char *name, int lights) {
     static char path[600];
     struct gn_maker maker;
     struct gn_err err = {0};
-    char json[2000] = "{'KHR_lights_punctual':{'lights':[", list[400] = "[{'nodes':[0,1", text[500];
-    int nodes = 2;
+    char text[500];
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_set(&maker, "meshes", "[]");
@@ -59,24 +58,10 @@ static const char *make_scene(const char *name, int lights) {
                  "'rotation':[0,%.3f,0,1]}",
                  i + 1, -6.0 + 1.7 * i, 0.1 * i, i % 2 ? -1.5 : 1.2, 0.03 * i);
         gn_maker_add(&maker, "nodes", text);
-        nodes++;
     }
-    for (int i = 0; i < lights; i++) {
-        sprintf(json + strlen(json), "%s{'type':'directional','intensity':%.6f}", i ? "," : "",
-                3.0 / lights);
-        snprintf(text, sizeof text,
-                 "{'rotation':[-0.65,%.3f,0,0.75],'extensions':{'KHR_lights_punctual':{'light':%d}}"
-                 "}",
-                 0.01 * i, i);
-        gn_maker_add(&maker, "nodes", text);
-        nodes++;
-    }
-    strcat(json, "]}}");
-    gn_maker_set(&maker, "extensions", json);
+    gn_maker_suns(&maker, lights, 3.0 / lights);
     gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual']");
-    for (int i = 2; i < nodes; i++) sprintf(list + strlen(list), ",%d", i);
-    strcat(list, "]}]");
-    gn_maker_set(&maker, "scenes", list);
+    gn_maker_show_all(&maker, NULL);
     snprintf(path, sizeof path, "%s/background-%s.glb", gn_shot_build(), name);
     if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
     return path;

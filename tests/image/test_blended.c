@@ -27,7 +27,7 @@ static const char *make_scene(const char *name, int lights) {
     static const uint16_t indices[12] = {0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7};
     struct gn_maker maker;
     struct gn_err err = {0};
-    char json[2000] = "{'KHR_lights_punctual':{'lights':[", list[400] = "[{'nodes':[0", text[500];
+    char text[500];
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     const int at = gn_maker_accessor(&maker, "VEC3", 5126, 8, positions, sizeof positions,
@@ -64,20 +64,9 @@ static const char *make_scene(const char *name, int lights) {
     gn_maker_set(&maker, "cameras",
                  "[{'type':'orthographic','orthographic':{'xmag':8,'ymag':4.5,'znear':1,"
                  "'zfar':40}}]");
-    for (int i = 0; i < lights; i++) {
-        sprintf(json + strlen(json), "%s{'type':'directional','intensity':0.1}", i ? "," : "");
-        snprintf(text, sizeof text,
-                 "{'rotation':[-0.65,%.3f,0,0.75],'extensions':{'KHR_lights_punctual':{'light':%d}}"
-                 "}",
-                 0.01 * i, i);
-        gn_maker_add(&maker, "nodes", text);
-    }
-    strcat(json, "]}}");
-    gn_maker_set(&maker, "extensions", json);
+    gn_maker_suns(&maker, lights, 0.1);
     gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual','KHR_materials_unlit']");
-    for (int i = 1; i < 5 + lights; i++) sprintf(list + strlen(list), ",%d", i);
-    strcat(list, "],'extras':{'gnomon_background':0}}]");
-    gn_maker_set(&maker, "scenes", list);
+    gn_maker_show_all(&maker, "0");
     snprintf(path, sizeof path, "%s/blended-%s.glb", gn_shot_build(), name);
     if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
     return path;

@@ -100,7 +100,6 @@ static const char *make_scene(const char *name, int lights) {
     static char path[600];
     struct gn_maker maker;
     struct gn_err err = {0};
-    char json[2000] = "{'KHR_lights_punctual':{'lights':[", list[4000] = "[{'nodes':[";
     gn_maker_init(&maker);
     gn_maker_square(&maker);
     gn_maker_set(&maker, "meshes", "[]");
@@ -127,34 +126,16 @@ static const char *make_scene(const char *name, int lights) {
                  i % COLUMNS, i / COLUMNS);
         gn_maker_add(&maker, "nodes", text);
     }
-    int nodes = COLUMNS * ROWS;
     gn_maker_set(&maker, "cameras",
                  "[{'type':'orthographic','orthographic':{'xmag':8,'ymag':4.5,'znear':1,"
                  "'zfar':20}}]");
     gn_maker_add(&maker, "nodes",
                  "{'camera':0,'translation':[7.5,10,4],'rotation':[-0.70710678,0,0,0.70710678]}");
-    nodes++;
-    for (int i = 0; i < lights; i++) {
-        char text[200];
-        sprintf(json + strlen(json), "%s{'type':'directional','intensity':%.6f}", i ? "," : "",
-                0.8 / lights);
-        snprintf(
-            text, sizeof text,
-            "{'rotation':[-0.65,%.3f,0,0.75],'extensions':{'KHR_lights_punctual':{'light':%d}}}",
-            0.01 * i, i);
-        gn_maker_add(&maker, "nodes", text);
-        nodes++;
-    }
-    strcat(json, "]}}");
-    if (lights > 0) {
-        gn_maker_set(&maker, "extensions", json);
-        gn_maker_set(&maker, "extensionsUsed", "['KHR_lights_punctual','KHR_materials_unlit']");
-    } else {
-        gn_maker_set(&maker, "extensionsUsed", "['KHR_materials_unlit']");
-    }
-    for (int i = 0; i < nodes; i++) sprintf(list + strlen(list), "%s%d", i ? "," : "", i);
-    strcat(list, "],'extras':{'gnomon_background':[0.9,0.5,0.1]}}]");
-    gn_maker_set(&maker, "scenes", list);
+    if (lights > 0) gn_maker_suns(&maker, lights, 0.8 / lights);
+    gn_maker_set(&maker, "extensionsUsed",
+                 lights > 0 ? "['KHR_lights_punctual','KHR_materials_unlit']"
+                            : "['KHR_materials_unlit']");
+    gn_maker_show_all(&maker, "[0.9,0.5,0.1]");
     snprintf(path, sizeof path, "%s/tone-%s.glb", gn_shot_build(), name);
     if (!gn_maker_write(&maker, path, &err)) fail_msg("%s", err.text);
     return path;

@@ -125,12 +125,37 @@ void gn_maker_posed_square(struct gn_maker *maker) {
     gn_maker_set(maker, "scenes", "[{'nodes':[0,1]}]");
 }
 
+void gn_maker_suns(struct gn_maker *maker, int count, double lux) {
+    json_t *lights = json_array();
+    char json[200];
+    for (int i = 0; i < count; i++) {
+        json_array_append_new(lights,
+                              json_pack("{ss sf}", "type", "directional", "intensity", lux));
+        snprintf(json, sizeof json,
+                 "{'rotation':[-0.65,%.3f,0,0.75],'extensions':{'KHR_lights_punctual':{'light':%d}}"
+                 "}",
+                 0.01 * i, i);
+        gn_maker_add(maker, "nodes", json);
+    }
+    json_object_set_new(maker->root, "extensions",
+                        json_pack("{s{so}}", "KHR_lights_punctual", "lights", lights));
+}
+
+void gn_maker_show_all(struct gn_maker *maker, const char *background) {
+    const int count = (int)json_array_size(json_object_get(maker->root, "nodes"));
+    json_t *roots = json_array(), *scene = json_pack("{so}", "nodes", roots);
+    for (int i = 0; i < count; i++) json_array_append_new(roots, json_integer(i));
+    if (background)
+        json_object_set_new(scene, "extras",
+                            json_pack("{so}", "gnomon_background", parse(background)));
+    json_object_set_new(maker->root, "scenes", json_pack("[o]", scene));
+}
+
 void gn_maker_skinned(struct gn_maker *maker, int nodes, size_t vertices,
                       const float (*positions)[3], const uint16_t (*joints)[4],
                       const float (*weights)[4]) {
-    json_t *list = json_array(), *roots = json_array();
+    json_t *list = json_array();
     for (int i = 0; i < nodes; i++) json_array_append_new(list, json_integer(i));
-    for (int i = 0; i <= nodes; i++) json_array_append_new(roots, json_integer(i));
     gn_maker_accessor(maker, "VEC3", 5126, vertices, positions, vertices * sizeof *positions, NULL);
     gn_maker_accessor(maker, "VEC4", 5123, vertices, joints, vertices * sizeof *joints, NULL);
     gn_maker_accessor(maker, "VEC4", 5126, vertices, weights, vertices * sizeof *weights, NULL);
@@ -138,7 +163,7 @@ void gn_maker_skinned(struct gn_maker *maker, int nodes, size_t vertices,
                  "{'primitives':[{'attributes':{'POSITION':0,'JOINTS_0':1,'WEIGHTS_0':2}}]}");
     json_object_set_new(maker->root, "skins", json_pack("[{so}]", "joints", list));
     gn_maker_add(maker, "nodes", "{'mesh':0,'skin':0}");
-    json_object_set_new(maker->root, "scenes", json_pack("[{so}]", "nodes", roots));
+    gn_maker_show_all(maker, NULL);
 }
 
 void gn_maker_cube(struct gn_maker *maker) {

@@ -35,6 +35,12 @@ int gn_maker_accessor(struct gn_maker *maker, const char *type, int component, s
 /* The only clip: the node goes from one place to another in so many seconds. */
 void gn_maker_move(struct gn_maker *maker, int node, float seconds, const float from[3],
                    const float to[3]);
+/* So many directional lights from above, of so many lux each, some hundredths of a radian apart,
+ * with a node each: the file's only ones. */
+void gn_maker_suns(struct gn_maker *maker, int count, double lux);
+/* The only scene: all nodes that there are, with a background of that grey or colour, JSON; NULL:
+ * without. */
+void gn_maker_show_all(struct gn_maker *maker, const char *background);
 /* A 2 x 2 square in y = 0, facing up, as mesh 0 (accessors 0 and 1, no normals), node 0 with it,
  * and a scene. */
 void gn_maker_square(struct gn_maker *maker);
